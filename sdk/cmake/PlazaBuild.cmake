@@ -1,0 +1,44 @@
+# Settings of Plaza's own build: nothing here is exported.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# A build tree is laid out as an install tree is, so that the executable finds plugins in both.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(PLAZA_PLUGIN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/plaza/plugins)
+set(PLAZA_PLUGIN_INSTALL_DIRECTORY ${CMAKE_INSTALL_LIBDIR}/plaza/plugins)
+
+find_program(PLAZA_CCACHE ccache)
+if(PLAZA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PLAZA_CCACHE})
+endif()
+
+add_library(plaza_warnings INTERFACE)
+target_compile_options(plaza_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion)
+if(PLAZA_SANITIZE)
+  add_compile_options(-fsanitize=${PLAZA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${PLAZA_SANITIZE})
+endif()
+
+include(PlazaOpenCV)
+include(PlazaPlugin)
+
+# plaza_add_rooms(DIR...): adds every folder below DIR, at any depth, that has a CMakeLists.txt.
+function(plaza_add_rooms)
+  foreach(room IN LISTS ARGN)
+    file(GLOB_RECURSE lists CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/CMakeLists.txt)
+    foreach(list IN LISTS lists)
+      cmake_path(GET list PARENT_PATH folder)
+      cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+      add_subdirectory(${folder} ${PROJECT_BINARY_DIR}/${name})
+    endforeach()
+  endforeach()
+endfunction()
