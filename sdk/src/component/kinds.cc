@@ -38,7 +38,8 @@ void check_observation(const Observation& o, std::size_t index) {
 }  // namespace
 
 Source::~Source() = default;
-SourceInfo Source::open() {
+SourceInfo Source::open(SourceRole role) {
+  role_ = role;
   SourceInfo info = do_open();
   open_ = true;
   next_ = 0;
@@ -59,6 +60,7 @@ bool Source::read(NodeIo& io) {
   return true;
 }
 bool Source::do_people_free(std::int64_t /*frame*/) const { return false; }
+std::string Source::do_content_key() const { return {}; }
 void Source::do_process(NodeIo& /*io*/) { throw InternalError("sources are read, not processed"); }
 
 ShapeModel::~ShapeModel() = default;

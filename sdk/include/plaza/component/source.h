@@ -2,14 +2,23 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "plaza/component/node.h"
 
 namespace plaza {
 
 struct SourceInfo {
-  std::optional<std::int64_t> frame_count;  ///< nothing: not known before the end
+  /// How many frames are expected, for progress and early checks; nothing: not known before the end. A
+  /// video's header may be wrong by a few: only read() says where the end is.
+  std::optional<std::int64_t> frame_count;
   bool rereadable = true;                   ///< false: a live source, seek() works only once, to 0
+};
+
+/// What a source is in its pipeline.
+enum class SourceRole {
+  kClock,     ///< the first source: the run ends where it ends, and it alone gives Frames
+  kFollower,  ///< a further source: gives no Frames and never ends; beyond its data it says "nothing here"
 };
 
 /// Gives payloads frame by frame. The first source of a pipeline is its clock: the run ends where it
@@ -19,8 +28,8 @@ class PLAZA_API Source : public Node {
  public:
   ~Source() override;
 
-  /// Opens files and devices; once, before the first read.
-  SourceInfo open();
+  /// Opens files and devices; before the first read. Opening again starts again at frame 0.
+  SourceInfo open(SourceRole role = SourceRole::kClock);
   /// Makes `frame` the next one to be read. Throws UserError when it is beyond the end.
   void seek(std::int64_t frame);
   /// Emits the payloads of frame io.frame(), which is the next one in order, and returns true; returns
@@ -29,17 +38,24 @@ class PLAZA_API Source : public Node {
   bool read(NodeIo& io);
 
  protected:
+  SourceRole role() const { return role_; }
+
   virtual SourceInfo do_open() = 0;
   virtual void do_seek(std::int64_t frame) = 0;
   virtual bool do_read(NodeIo& io) = 0;
   /// True when the given frame is known to show no people (synthetic worlds, recorded backgrounds).
   virtual bool do_people_free(std::int64_t frame) const;
+  virtual std::string do_content_key() const;
 
  public:
   bool people_free(std::int64_t frame) const { return do_people_free(frame); }
+  /// Text that changes when what the source reads from outside changes (its files with sizes and times
+  /// of modification), for cache keys; parameters need not be in it. Works before open().
+  std::string content_key() const { return do_content_key(); }
 
  private:
   void do_process(NodeIo& io) final;
+  SourceRole role_ = SourceRole::kClock;
   bool open_ = false;
   std::int64_t next_ = 0;
 };
