@@ -264,7 +264,9 @@ Evaluation Evaluator::evaluate() {
   for (const auto& [section, values] : evaluation) {
     for (const auto& [key, value] : values.items()) {
       if (value.is_number() && !std::isfinite(value.get<double>())) {
-        throw InternalError("metric " + section + "." + key + " is not finite; leave out what is unknown");
+        std::string metric = section;
+        metric.append(".").append(key);
+        throw InternalError("metric " + metric + " is not finite; leave out what is unknown");
       }
     }
   }
