@@ -6,15 +6,20 @@ class App;
 
 namespace plaza {
 
-/// Each function adds one command to the program: its options, help text and what it does.
-/// Commands throw UserError and InternalError; main() turns them into exit status 2 and 3.
-void add_run_command(CLI::App& app);
-void add_check_command(CLI::App& app);
-void add_graph_command(CLI::App& app);
-void add_list_command(CLI::App& app);
-void add_show_command(CLI::App& app);
-void add_plugins_command(CLI::App& app);
-void add_eval_command(CLI::App& app);
-void add_help_command(CLI::App& app);
+class CliContext;
+
+/// Each function adds one command to the program: its options, help text and what it does (a
+/// callback on the subcommand, which may refer to `context`: both live as long as the program).
+/// Commands throw UserError and InternalError; main() turns them into exit status 2 and 3. A
+/// command that ends otherwise sets context.exit_status. The function of command NAME stands in
+/// NAME_command.cc.
+void add_run_command(CLI::App& app, CliContext& context);
+void add_check_command(CLI::App& app, CliContext& context);
+void add_graph_command(CLI::App& app, CliContext& context);
+void add_list_command(CLI::App& app, CliContext& context);
+void add_show_command(CLI::App& app, CliContext& context);
+void add_plugins_command(CLI::App& app, CliContext& context);
+void add_eval_command(CLI::App& app, CliContext& context);
+void add_help_command(CLI::App& app, CliContext& context);
 
 }  // namespace plaza
