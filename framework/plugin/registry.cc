@@ -50,7 +50,7 @@ std::shared_ptr<Component> ComponentEntry::create(const nlohmann::json& values,
   return {component.release(), [library = library_handle](Component* c) { delete c; }};
 }
 
-void Registry::add(ComponentEntry entry) {
+void Registry::check_addable(const ComponentEntry& entry) const {
   const ComponentDeclaration& declaration = entry.declaration;
   if (!is_valid_name(declaration.name)) {
     throw UserError(described(entry.library) + " provides a component with the invalid name " +
@@ -69,16 +69,47 @@ void Registry::add(ComponentEntry entry) {
                     described(existing->second.library) + " and by " + described(entry.library) +
                     "; remove one of the libraries or rename one of the components");
   }
-  std::string name = declaration.name;
+}
+
+void Registry::add(ComponentEntry entry) {
+  check_addable(entry);
+  std::string name = entry.declaration.name;
   entries_.emplace(std::move(name), std::move(entry));
 }
 
-void Registry::add_refused(RefusedPlugin refused) { refused_.push_back(std::move(refused)); }
+void Registry::add_all(std::vector<ComponentEntry> entries) {
+  Registry together;  // so that a name that one library uses twice is found, too
+  for (const ComponentEntry& entry : entries) {
+    check_addable(entry);
+    together.add(entry);
+  }
+  entries_.merge(together.entries_);
+}
+
+void Registry::add_refused(RefusedPlugin refused) {
+  const bool known = std::any_of(refused_.begin(), refused_.end(), [&](const RefusedPlugin& other) {
+    return other.library == refused.library;
+  });
+  if (!known) refused_.push_back(std::move(refused));
+}
 
 void Registry::add_searched(std::filesystem::path directory) {
   if (std::find(searched_.begin(), searched_.end(), directory) == searched_.end()) {
     searched_.push_back(std::move(directory));
   }
+}
+
+bool Registry::has_library(const std::filesystem::path& canonical) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const auto& entry) { return entry.second.library == canonical; });
+}
+
+std::optional<std::filesystem::path> Registry::library_named(
+    const std::filesystem::path& file_name) const {
+  for (const auto& [name, entry] : entries_) {
+    if (!entry.library.empty() && entry.library.filename() == file_name) return entry.library;
+  }
+  return std::nullopt;
 }
 
 const ComponentEntry* Registry::find(std::string_view name) const {
