@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "plaza/core/export.h"
+
+namespace plaza {
+
+/// A file that bears its name only when it is complete. Until commit() its content grows in
+/// "NAME.part" beside it, in whole records: whatever ends the process, NAME is absent, the earlier
+/// file, or valid, and NAME.part ends with a whole record.
+///
+/// Every failure (a full disk above all) is a UserError that names file, cause and remedy. What was
+/// written before a failure stays, cut to whole records, and can still be committed.
+class PLAZA_API OutputFile {
+ public:
+  /// Creates NAME.part, replacing one that an earlier process left. The folder must exist.
+  explicit OutputFile(std::filesystem::path file);
+  /// Removes NAME.part unless committed.
+  ~OutputFile();
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+
+  /// Appends one record: a row, or any text that makes sense only as a whole. Buffered.
+  void write(std::string_view record);
+  /// Hands all records to the operating system: they survive the death of this process.
+  void flush();
+  /// Hands everything to the disk and gives the file its name. At most once.
+  void commit();
+
+  const std::filesystem::path& file() const { return file_; }
+  const std::filesystem::path& part() const { return part_; }
+
+ private:
+  [[noreturn]] void fail(const char* action, int error);
+  void close() noexcept;
+
+  std::filesystem::path file_;
+  std::filesystem::path part_;
+  std::string buffer_;       // whole records only
+  std::size_t written_ = 0;  // bytes in NAME.part, whole records only
+  int descriptor_ = -1;
+};
+
+/// Writes a whole file at once, in the same way.
+PLAZA_API void write_file(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace plaza
