@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framework/plugin/registry.h"
@@ -14,18 +15,31 @@
 
 namespace plaza {
 
-/// A value's origin: "pipelines/pets-s2l1.json:12:7", "default", "--set".
-using Origins = std::map<std::string, std::string>;  ///< JSON pointer below the component -> origin
+/// Where a value of the configuration was written, and its JSON pointer in that file. The `file` of
+/// a value given on the command line is "--set /nodes/edges/sigma_px=2.5", that of a default is
+/// empty.
+struct Origin {
+  FilePosition where;
+  std::string pointer;
+};
+
+/// "pipelines/pets-s2l1.json:12:7", "--set /nodes/edges/sigma_px=2.5" or "default".
+std::string to_string(const Origin& origin);
+
+/// JSON pointer below the component ("/sigma_px", "/files/view1") -> origin.
+using Origins = std::map<std::string, Origin, std::less<>>;
 
 /// A nested component, ready to be made.
 struct ResolvedPart {
   std::string name;
   const ComponentEntry* entry = nullptr;
   nlohmann::json values;  ///< every plain parameter, defaults filled in, paths replaced
-  Origins origins;
+  Origins
+      origins;  ///< of "/use", "/name" and every plain value, elements of lists and maps included
   std::map<std::string, std::vector<ResolvedPart>> parts;  ///< by parameter
   FilePosition where;
-  std::string pointer;  ///< "/nodes/7/affinities/0"
+  std::string pointer;  ///< in the file of `where`: "/nodes/7/affinities/0"
+  std::string path;     ///< by names: "/nodes/tracks/affinities/location"
 };
 
 /// One wired input: output `output` of node `node`; node -1: optional and not connected.
@@ -48,11 +62,16 @@ struct ResolvedNode : ResolvedPart {
 /// A pipeline after extends, --set, defaults, checks and wiring.
 struct ResolvedPipeline {
   std::string name;            ///< its title
+  std::string description;     ///< empty when there is none
   std::filesystem::path file;  ///< as given
   std::filesystem::path scene_file;
   std::uint64_t seed = 0;
   std::vector<ResolvedNode> nodes;
-  /// The contents of resolved.json: the complete configuration and the origin of every value.
+  Origins origins;  ///< of "/name", "/scene", "/seed", "/description"
+
+  /// The contents of resolved.json: the complete configuration and, in "origins", the origin of
+  /// every value by JSON pointer. It is a pipeline itself (paths absolute, wiring spelled out):
+  /// running it gives the same.
   nlohmann::json resolved_json() const;
 };
 
@@ -61,9 +80,13 @@ struct PipelineRequest {
   std::vector<std::string> sets;  ///< "/nodes/edges/sigma_px=2.5"
 };
 
-/// Reads, merges, checks and wires a pipeline. Every fault that can be found without making components is
-/// reported in one UserError.
+/// Reads, merges, checks and wires a pipeline. Every fault that can be found without making
+/// components is reported in one UserError, in the order of their places.
 ResolvedPipeline read_pipeline(const PipelineRequest& request, const Registry& registry);
+
+/// The same from text; `request.file` names it in messages and is the start of relative paths.
+ResolvedPipeline read_pipeline_text(std::string_view text, const PipelineRequest& request,
+                                    const Registry& registry);
 
 /// A pipeline's components, made and wired, in node order.
 struct Assembly {
@@ -71,13 +94,23 @@ struct Assembly {
   std::vector<std::shared_ptr<Component>> nodes;  ///< each is a Node
 };
 
-/// Makes all components and calls check() on each, parts included. All faults of all components in one
-/// UserError, each with file, line, column and pointer.
+/// Makes all components (parts before their owners, nodes in order) and calls check() on each,
+/// parts included. All faults of all components in one UserError, each with file, line, column and
+/// pointer. What a plugin throws that is no plaza::Error becomes an InternalError naming the
+/// component.
 Assembly assemble(const ResolvedPipeline& pipeline, std::shared_ptr<const Scene> scene,
                   const std::filesystem::path& output_folder);
 
-/// `$PLAZA_DATA/...` replaced (environment, else ../shared/data); relative paths start at the folder of
-/// `file`. The result is lexically normal.
+/// The seed of one component: a 64-bit mix (splitmix64) of the pipeline's seed and the FNV-1a hash
+/// of the component's path by names. It depends on nothing else: adding a node leaves the others'
+/// seeds alone.
+std::uint64_t component_seed(std::uint64_t pipeline_seed, std::string_view path);
+
+/// `$PLAZA_DATA/...` replaced; relative paths start at the folder of `file`; empty stays empty. The
+/// result is lexically normal. $PLAZA_DATA is the environment's, else ../shared/data where that is
+/// a folder, else the same relative to one of the folders above `file`, else ../shared/data. Throws
+/// UserError for any other
+/// `$NAME` at the start.
 std::filesystem::path resolve_path(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace plaza

@@ -7,9 +7,10 @@
 
 namespace plaza {
 
-/// The candidate nearest to `word` by edit distance (transpositions count once), or nothing when none is
-/// near enough to be a likely misspelling. Ties go to the first.
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates);
+/// The candidate nearest to `word` by edit distance (transpositions count once), or nothing when
+/// none is near enough to be a likely misspelling. Ties go to the first.
+std::optional<std::string> nearest(std::string_view word,
+                                   const std::vector<std::string>& candidates);
 
 /// `; did you mean "sigma_px"?` or empty.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
