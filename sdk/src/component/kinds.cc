@@ -1,5 +1,6 @@
 // The checks around every kind's virtual functions: a plugin that breaks an invariant is named at once,
 // not where its result makes trouble later.
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -17,8 +17,8 @@ struct Box {
   bool operator==(const Box&) const = default;
 };
 
-/// Intersection over union, in [0, 1]; without the historical "+1" of pixel counting. 0 when the union
-/// has no area.
+/// Intersection over union, in [0, 1]; without the historical "+1" of pixel counting. 0 when the
+/// union has no area.
 PLAZA_API double intersection_over_union(const Box& a, const Box& b);
 
 }  // namespace plaza

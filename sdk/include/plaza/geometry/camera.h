@@ -27,8 +27,8 @@ struct CameraFromWorld {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 };
 
-/// Tsai's model (R. Tsai, "A versatile camera calibration technique", 1987) with the sensor's geometry.
-/// Lengths on the sensor in mm, as calibration files give them; the pose in metres.
+/// Tsai's model (R. Tsai, "A versatile camera calibration technique", 1987) with the sensor's
+/// geometry. Lengths on the sensor in mm, as calibration files give them; the pose in metres.
 struct TsaiIntrinsics {
   double focal_mm = 0;
   double kappa1_per_mm2 = 0;  ///< undistorted = distorted * (1 + kappa1 * r_distorted^2)
@@ -47,20 +47,26 @@ struct PinholeIntrinsics {
   Distortion distortion;
 };
 
+struct Body;
+
 /// One calibrated view. Immutable, cheap to copy, safe to share between threads.
+///
+/// The factories throw std::invalid_argument for numbers that make no camera: an image size or
+/// focal length that is not positive, or anything that is not finite. They trust that the pose is a
+/// rotation; who reads one from a file checks that.
 ///
 /// World frame: metres, z = 0 is the ground, z up. Pixels: centres at integers, x right, y down.
 class PLAZA_API Camera {
  public:
-  /// `image_size` is (width, height) in pixels, both positive; else std::invalid_argument.
+  /// `image_size` is (width, height) in pixels.
   static Camera pinhole(std::string name, Eigen::Vector2i image_size,
                         const PinholeIntrinsics& intrinsics, const CameraFromWorld& pose);
   static Camera tsai(std::string name, Eigen::Vector2i image_size, const TsaiIntrinsics& intrinsics,
                      const CameraFromWorld& pose);
-  /// From the homographies that map ground metres (x, y, 1) at z = 0 and on the plane z = `head_z_m`
-  /// to pixels, as EPFL publishes them. Both share the images of the x and y directions, which fixes
-  /// their relative scale and gives the whole 3 x 4 projection matrix.
-  /// Throws UserError when the two contradict each other (they do not come from one camera).
+  /// From the homographies that map ground metres (x, y, 1) at z = 0 and on the plane z =
+  /// `head_z_m` to pixels, as EPFL publishes them. Both share the images of the x and y directions,
+  /// which fixes their relative scale and gives the whole 3 x 4 projection matrix. Throws UserError
+  /// when the two contradict each other (they do not come from one camera).
   static Camera plane_homographies(std::string name, Eigen::Vector2i image_size,
                                    const Eigen::Matrix3d& image_from_ground,
                                    const Eigen::Matrix3d& image_from_head, double head_z_m);
@@ -68,6 +74,8 @@ class PLAZA_API Camera {
   const std::string& name() const;
   int width() const;
   int height() const;
+  /// The same for every model, for homographies as they decompose.
+  const CameraFromWorld& pose() const;
   /// Optical centre in the world, metres.
   Eigen::Vector3d centre() const;
 
@@ -80,6 +88,7 @@ class PLAZA_API Camera {
   std::optional<Eigen::Vector2d> to_plane(const Eigen::Vector2d& pixel, double z_m = 0) const;
   /// d (x, y) / d pixel of to_plane, metres per pixel, 2 x 2; nothing where to_plane has no answer.
   std::optional<Eigen::Matrix2d> plane_jacobian(const Eigen::Vector2d& pixel, double z_m = 0) const;
+  /// Whether the pixel is on the image, half a pixel around the outermost centres included.
   bool contains(const Eigen::Vector2d& pixel) const;
 
   /// The same camera for images of another size (both axes scaled about the image's corner).
@@ -89,7 +98,9 @@ class PLAZA_API Camera {
   std::string fingerprint() const;
 
  private:
+  friend std::optional<Box> body_box(const Camera&, const Eigen::Vector2d&, const Body&);
   struct Model;
+  static Camera from_model(Model model);
   explicit Camera(std::shared_ptr<const Model> model);
   std::shared_ptr<const Model> model_;
 };
@@ -101,8 +112,9 @@ struct Body {
   double radius_m = 0.30;
 };
 
-/// Bounding box in the image of the upright cylinder `body` standing at `position_m` (ground, metres),
-/// not cut at the image border; nothing when any part of it is behind the camera.
+/// Bounding box in the image of the upright cylinder `body` standing at `position_m` (ground,
+/// metres), not cut at the image border; exact to 1e-6 px, distortion included. Nothing when any
+/// part of it is behind the camera or where the distortion folds back.
 PLAZA_API std::optional<Box> body_box(const Camera& camera, const Eigen::Vector2d& position_m,
                                       const Body& body);
 
