@@ -48,9 +48,10 @@ struct GroundRow {
 /// What a file must keep to.
 struct RowLimits {
   std::int64_t first_frame = 1;
-  std::optional<std::int64_t> last_frame;  ///< none: any
-  /// Rows with id -1 are people without identity, as many in a frame as there are. Otherwise -1 is
-  /// an identity like any other, and occurs at most once in a frame.
+  std::optional<std::int64_t> last_frame = std::nullopt;  ///< none: any
+  /// Rows with id -1 are people without identity, as many in a frame as there are. Otherwise they
+  /// are so only where the whole file has no other id, and -1 is an identity like any other where
+  /// it has.
   bool unidentified = false;
 };
 
