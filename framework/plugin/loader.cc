@@ -21,6 +21,8 @@ namespace plaza {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::string_view kPrefix = "plaza_";
+
 /// Why a library is not used.
 class Refusal : public std::runtime_error {
  public:
@@ -124,24 +126,24 @@ std::vector<ComponentEntry> components_of(const fs::path& canonical) {
   return entries;
 }
 
-/// plaza_min_cost_flow.so presumably gives "min-cost-flow".
-std::vector<std::string> presumed_names(const fs::path& library) {
+}  // namespace
+
+std::vector<std::string> presumed_components(const fs::path& library) {
   std::string name = library.stem().string();
-  name.erase(0, std::string_view("plaza_").size());
+  if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
   std::replace(name.begin(), name.end(), '_', '-');
   return {name};
 }
-
-}  // namespace
 
 void load_plugin(const fs::path& library, Registry& registry) {
   std::error_code error;
   fs::path canonical = fs::canonical(library, error);
   if (error) {
-    registry.add_refused({library, "can't be read: " + error.message(), presumed_names(library)});
+    registry.add_refused(
+        {library, "can't be read: " + error.message(), presumed_components(library)});
     return;
   }
-  std::vector<std::string> names = presumed_names(library);
+  std::vector<std::string> names = presumed_components(library);
   try {
     if (registry.has_library(canonical)) return;
     if (const std::optional<fs::path> first = registry.library_named(canonical.filename())) {

@@ -27,14 +27,23 @@ void load_plugins(const std::vector<std::filesystem::path>& folders, Registry& r
 /// its file name. One that is loaded already (through a link, too) is skipped.
 void load_plugin(const std::filesystem::path& library, Registry& registry);
 
+/// Names of what a library that can't be asked presumably provides: plaza_min_cost_flow.so gives
+/// "min-cost-flow".
+std::vector<std::string> presumed_components(const std::filesystem::path& library);
+
 /// Outcome of loading one library in a child process.
 struct ProbeResult {
   bool usable = false;
-  std::string report;  ///< the components it gives, or why it can't be used (signal and all)
+  bool answered = true;  ///< false: the library ended or held up the process
+  std::string report;    ///< the components it gives, or why it can't be used (signal and all)
 };
 
 /// `plaza plugins --probe FILE`: a plugin that crashes is a line in a report. Must be called while
 /// the process has one thread.
 ProbeResult probe_plugin(const std::filesystem::path& library);
+
+/// load_plugins() for a report: every library is tried in a child process before it is loaded here,
+/// so that one which crashes is recorded as refused.
+void survey_plugins(const std::vector<std::filesystem::path>& folders, Registry& registry);
 
 }  // namespace plaza

@@ -116,16 +116,30 @@ ProbeResult probe_plugin(const std::filesystem::path& library) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (output.timed_out) {
-    return {false, "did not finish loading within " + std::to_string(kPatience.count()) + " s"};
+    return {false, false,
+            "did not finish loading within " + std::to_string(kPatience.count()) + " s"};
   }
   if (WIFSIGNALED(status)) {
-    return {false, "crashed with " + signal_name(WTERMSIG(status)) + " while loading"};
+    return {false, false, "crashed with " + signal_name(WTERMSIG(status)) + " while loading"};
   }
   if (output.text.empty()) {
-    return {false, "ended the process with status " + std::to_string(WEXITSTATUS(status)) +
-                       " while loading"};
+    return {
+        false, false,
+        "ended the process with status " + std::to_string(WEXITSTATUS(status)) + " while loading"};
   }
-  return {output.text[0] == kUsable, output.text.substr(1)};
+  return {output.text[0] == kUsable, true, output.text.substr(1)};
+}
+
+void survey_plugins(const std::vector<std::filesystem::path>& folders, Registry& registry) {
+  for (const std::filesystem::path& folder : folders) registry.add_searched(folder);
+  for (const std::filesystem::path& library : find_plugins(folders)) {
+    const ProbeResult probe = probe_plugin(library);
+    if (probe.answered) {
+      load_plugin(library, registry);
+    } else {
+      registry.add_refused({library, probe.report, presumed_components(library)});
+    }
+  }
 }
 
 }  // namespace plaza
