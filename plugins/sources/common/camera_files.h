@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "plaza/core/diagnostic.h"
+#include "plaza/geometry/scene.h"
+
+namespace plaza::sources {
+
+/// A parameter "files": { CAMERA: ... } as every source has it.
+using CameraPaths = std::map<std::string, std::filesystem::path>;
+
+/// A fault at a place inside the component, as Component::check() gives it.
+Diagnostic fault_at(std::string pointer, std::string message);
+
+/// JSON pointer of one camera's entry, "/files/view1"; "~" and "/" in names are escaped (RFC 6901).
+std::string entry_pointer(const std::string& parameter, const std::string& camera);
+
+/// "768x576".
+std::string size_text(int width, int height);
+
+/// "'view1', 'view2'", in the scene's order.
+std::string list_cameras(const Scene& scene);
+
+/// Faults between the cameras of `paths` and those of the scene: entries that the scene lacks and,
+/// unless they are listed in `missing` (parameter "missing_cameras"), cameras without an entry;
+/// names in `missing` that the scene lacks or that have an entry all the same.
+Diagnostics check_cameras(const Scene& scene, const std::string& parameter,
+                          const CameraPaths& paths, const std::vector<std::string>& missing);
+
+/// Cameras of `paths` that the scene lacks, for sources where not every camera needs an entry.
+Diagnostics check_known_cameras(const Scene& scene, const std::string& parameter,
+                                const CameraPaths& paths);
+
+/// What is wrong with an input file before its content is looked at, with the remedy; empty: it is
+/// a regular file that can be read.
+std::string file_fault(const std::filesystem::path& file);
+
+/// "path size time", for Source::content_key(): changes when the file is replaced.
+std::string file_stamp(const std::filesystem::path& file);
+
+}  // namespace plaza::sources
