@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +17,11 @@ namespace plaza {
 enum class ProgressStyle { kQuiet, kTerminal, kJsonLines };
 
 struct RunOptions {
-  std::int64_t first_frame = 0;             ///< --frames A:B, A included
-  std::optional<std::int64_t> end_frame;    ///< B excluded; nothing: to the end of the source
+  std::int64_t first_frame = 0;           ///< --frames A:B, A included
+  std::optional<std::int64_t> end_frame;  ///< B excluded; nothing: to the end of the source
   std::filesystem::path output_folder;
-  std::filesystem::path cache_folder;       ///< of learned models
-  int threads = 0;                          ///< 0: all cores; 1: sequential, the reference
+  std::filesystem::path cache_folder;  ///< of learned models
+  int threads = 0;                     ///< 0: all cores; 1: sequential, the reference
   ProgressStyle progress = ProgressStyle::kTerminal;
 };
 
@@ -28,14 +30,16 @@ struct RunReport {
   bool complete = false;
   std::int64_t frames = 0;
   double seconds = 0;
-  Evaluation evaluation;  ///< of the main branch
+  Evaluation evaluation;                       ///< of the main branch
+  std::map<std::string, Evaluation> branches;  ///< of the others, by the node that gives the tracks
   std::vector<Artifact> artifacts;
-  std::string stop_reason;  ///< why it is not complete
+  std::string stop_reason;         ///< why it is not complete
+  std::vector<std::string> notes;  ///< what went wrong without ending the run
 };
 
-/// The life of a run: check, learn, stream, flush, render, evaluate, write. When a node fails, what was
-/// complete is written, marked as partial, and the error is rethrown with node, frame and camera.
-/// An interruption (request_stop) ends it in the same clean way without an error.
+/// The life of a run: check, learn, stream, flush, render, evaluate, write. When a node fails, what
+/// was complete is written, marked as partial, and the error is rethrown with node, frame and
+/// camera. An interruption (request_stop) ends it in the same clean way without an error.
 RunReport run_pipeline(const ResolvedPipeline& pipeline, std::shared_ptr<const Scene> scene,
                        const RunOptions& options);
 

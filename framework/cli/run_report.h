@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+#include "framework/execution/run.h"
+
+namespace plaza {
+
+/// For people: how it went, the figures by section, and where to look.
+void print_report(std::ostream& out, const RunReport& report, const std::filesystem::path& folder);
+
+/// The last of the JSON lines: {"event":"end","complete":...,"frames":...,"seconds":...,"out":...,
+/// "artifacts":[{"file":...,"what":...}]}.
+void print_report_json(std::ostream& out, const RunReport& report,
+                       const std::filesystem::path& folder);
+
+}  // namespace plaza

@@ -1,0 +1,46 @@
+#include "framework/execution/evaluate.h"
+
+#include <algorithm>
+
+#include "framework/execution/guard.h"
+
+namespace plaza {
+namespace {
+
+/// Settings (named as parameters are) and words may stand among the metrics; other numbers must be
+/// declared, or no study and no report would know which way is better.
+void check_declared(const ComponentDeclaration& declaration, const Evaluation& evaluation) {
+  for (const auto& [section, values] : evaluation) {
+    for (const auto& [key, value] : values.items()) {
+      if (!value.is_number()) continue;
+      const bool metric =
+          std::any_of(declaration.metrics.begin(), declaration.metrics.end(),
+                      [&](const MetricSpec& m) { return m.section == section && m.name == key; });
+      const bool setting = std::any_of(declaration.parameters.begin(), declaration.parameters.end(),
+                                       [&](const ParameterSpec& p) { return p.name == key; });
+      if (!metric && !setting) {
+        throw InternalError("gives " + section + "." + key + ", which \"" + declaration.name +
+                            "\" does not declare as a metric");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Evaluation evaluate_branch(const Branch& branch, const ExecutionPlan& plan) {
+  Evaluation all;
+  for (const std::size_t index : branch.evaluators) {
+    const PlannedNode& node = plan.nodes[index];
+    guarded(node.name, std::nullopt, [&] {
+      const Evaluation evaluation = dynamic_cast<Evaluator&>(*node.node).evaluate();
+      check_declared(node.resolved->entry->declaration, evaluation);
+      for (const auto& [section, values] : evaluation) {
+        all.emplace(all.contains(section) ? section + "@" + node.name : section, values);
+      }
+    });
+  }
+  return all;
+}
+
+}  // namespace plaza
