@@ -17,7 +17,8 @@ void add_help_command(CLI::App& app, CliContext& /*context*/) {
   command->add_option("COMMAND", *topic, "the command to explain");
   command->callback([&app, topic] {
     if (topic->empty()) {
-      std::cout << app.help();
+      // not app.help(): while a command runs, that is the command's help
+      std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
       return;
     }
     for (const CLI::App* known : app.get_subcommands({})) {
