@@ -153,6 +153,7 @@ std::optional<MotRow> parse_mot_row(std::span<const Field> fields, int line,
 struct GroundColumns {
   int frame = 0, id = -1, x = -1, y = -1, heading = -1, score = -1;
   bool named = false;
+  bool named_metres = true;
   double unit_m = 1;
 };
 
@@ -180,7 +181,10 @@ std::optional<GroundColumns> columns_of_header(std::span<const Field> fields, in
       return std::nullopt;
     }
     *entry->second = static_cast<int>(i);
-    if (entry->first == "x") columns.unit_m = unit_m;
+    if (entry->first == "x") {
+      columns.unit_m = unit_m;
+      columns.named_metres = false;
+    }
   }
   if (columns.frame < 0 || columns.x < 0 || columns.y < 0) {
     faults.add(line, 1, "the names of the columns must include frame, x_m and y_m");
@@ -239,6 +243,7 @@ std::optional<GroundRow> parse_ground_row(std::span<const Field> fields,
   }
   if (!complete || !x || !y) return std::nullopt;
   row.frame = *frame;
+  row.named_metres = columns.named && columns.named_metres;
   row.position_m = columns.unit_m * Eigen::Vector2d(*x, *y);
   if (!row.position_m.allFinite()) {
     faults.add(line, field(columns.x).column, "position is beyond the range of double precision");

@@ -40,6 +40,7 @@ struct GroundRow {
   std::int64_t id = kNoIdentity;
   Eigen::Vector2d position_m =
       Eigen::Vector2d::Zero();        ///< file's unit times read_ground_rows' unit_m
+  bool named_metres = false;          ///< a header said so (x_m, y_m), and the unit was not applied
   std::optional<double> heading_deg;  ///< only with a header
   std::optional<double> score;        ///< only with a header
   int line = 0;                       ///< in the file, from 1
