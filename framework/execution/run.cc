@@ -14,6 +14,7 @@
 #include "framework/execution/frame_reader.h"
 #include "framework/execution/guard.h"
 #include "framework/execution/learn.h"
+#include "framework/execution/missing_views.h"
 #include "framework/execution/plan.h"
 #include "framework/execution/progress.h"
 #include "framework/execution/recorder.h"
@@ -22,6 +23,7 @@
 #include "framework/results/branches.h"
 #include "framework/results/summary.h"
 #include "plaza/core/error.h"
+#include "plaza/data/frames.h"
 #include "plaza/data/ground_truth.h"
 #include "plaza/data/track.h"
 #include "plaza/io/output_file.h"
@@ -217,6 +219,10 @@ class Run {
       if (task.ground_truth_slot < 0) continue;
       task.ground_truth.push_back(state.slots[static_cast<std::size_t>(task.ground_truth_slot)]);
     }
+    if (plan_.frames_slot >= 0) {
+      missing_views_.add(
+          dynamic_cast<const FrameSet&>(*state.slots[static_cast<std::size_t>(plan_.frames_slot)]));
+    }
     for (PayloadPtr& slot : state.slots) slot.reset();  // images go as soon as nobody needs them
     end_frame_ = state.frame + 1;
     ++report_.frames;
@@ -293,6 +299,9 @@ class Run {
       const std::vector<Artifact> files = recorder_->write(end_frame_);
       report_.artifacts.insert(report_.artifacts.end(), files.begin(), files.end());
     });
+    for (const std::string& note : missing_views_.notes()) {
+      report_.notes.push_back("node '" + plan_.nodes[plan_.clock].name + "', " + note);
+    }
     report_.complete = !ended();
     report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     if (fault_) {
@@ -332,6 +341,7 @@ class Run {
   std::vector<LearningTask> tasks_;
   std::vector<LearningTask> missing_;
   std::unique_ptr<Recorder> recorder_;
+  MissingViews missing_views_{*scene_};
   std::vector<RenderTask> renderers_;
   std::vector<bool> draws_;  ///< by node: is it a renderer
 
