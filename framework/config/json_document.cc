@@ -255,7 +255,7 @@ JsonDocument parse_json(std::string_view text, const std::string& file) {
   return document;
 }
 
-JsonDocument read_json(const std::filesystem::path& file) {
+std::string read_text_file(const std::filesystem::path& file) {
   const auto refuse = [&file](const std::string& message) {
     Diagnostic diagnostic;
     diagnostic.where.file = file.string();
@@ -275,11 +275,15 @@ JsonDocument read_json(const std::filesystem::path& file) {
   }
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in.is_open() || in.bad()) {
     throw refuse("can't be read: " + std::string(std::strerror(errno == 0 ? EIO : errno)));
   }
-  return parse_json(text, file.string());
+  return text;
+}
+
+JsonDocument read_json(const std::filesystem::path& file) {
+  return parse_json(read_text_file(file), file.string());
 }
 
 std::string pointer_token(std::string_view key) {

@@ -45,6 +45,9 @@ JsonDocument parse_json(std::string_view text, const std::string& file);
 /// The same from a file; a file that is missing, not a regular file, or over 64 MiB is a UserError.
 JsonDocument read_json(const std::filesystem::path& file);
 
+/// The contents of a JSON file, under the same conditions.
+std::string read_text_file(const std::filesystem::path& file);
+
 /// One step of a JSON pointer, escaped ("~0", "~1").
 std::string pointer_token(std::string_view key);
 

@@ -70,9 +70,36 @@ std::optional<std::string> nearest(std::string_view word,
   return *best;
 }
 
+std::string quote(std::string_view word) {
+  std::string out;
+  out.reserve(word.size() + 2);
+  out += '"';
+  out += word;
+  out += '"';
+  return out;
+}
+
+std::string quote_all(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) {
+    if (!out.empty()) out += ", ";
+    out += quote(word);
+  }
+  return out;
+}
+
+std::string a_or_an(std::string_view noun) {
+  constexpr std::string_view kVowels = "aeiouAEIOU";
+  const bool vowel = !noun.empty() && kVowels.find(noun.front()) != std::string_view::npos;
+  std::string out = vowel ? "an " : "a ";
+  out += noun;
+  return out;
+}
+
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
   const std::optional<std::string> found = nearest(word, candidates);
-  return found ? "; did you mean \"" + *found + "\"?" : std::string();
+  if (!found) return {};
+  return "; did you mean " + quote(*found) + "?";
 }
 
 }  // namespace plaza

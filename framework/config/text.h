@@ -15,4 +15,13 @@ std::optional<std::string> nearest(std::string_view word,
 /// `; did you mean "sigma_px"?` or empty.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
+/// `"word"`.
+std::string quote(std::string_view word);
+
+/// `"a", "b", "c"`.
+std::string quote_all(const std::vector<std::string>& words);
+
+/// "a detector", "an affinity".
+std::string a_or_an(std::string_view noun);
+
 }  // namespace plaza
