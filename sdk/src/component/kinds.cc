@@ -278,7 +278,7 @@ void Evaluator::do_flush(NodeIo& io) { do_observe(io); }
 
 Sink::~Sink() = default;
 void Sink::do_process(NodeIo& io) { do_write(io); }
-void Sink::do_flush(NodeIo& io) { do_write(io); }
+void Sink::do_flush(NodeIo& io) { do_write_rest(io); }
 
 Renderer::~Renderer() = default;
 void Renderer::begin(std::int64_t begin_frame, std::int64_t end_frame) {

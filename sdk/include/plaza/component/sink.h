@@ -24,6 +24,8 @@ class PLAZA_API Sink : public Node {
 
  protected:
   virtual void do_write(const NodeIo& io) = 0;
+  /// What associators held back until the flush, which is no frame; io.frame() is one past the last.
+  virtual void do_write_rest(const NodeIo& io) { do_write(io); }
   virtual std::vector<Artifact> do_finish(bool complete) = 0;
 
  private:

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace plaza::drawing {
+
+/// Writes a file that is either whole or not there: into a neighbour first, then renamed.
+/// Throws UserError naming file and remedy when the folder cannot be written to or the disk is
+/// full.
+void write_file(const std::filesystem::path& file, const std::string& content);
+void write_png(const std::filesystem::path& file, const cv::Mat& image);
+
+/// "12.3 MB are free in '/data/out'", for messages about files that could not be written.
+std::string free_space_text(const std::filesystem::path& folder);
+
+/// Empty when `name` can be the name of a file in the output folder; else what is wrong with it.
+std::string fault_of_file_name(const std::string& name);
+
+}  // namespace plaza::drawing
