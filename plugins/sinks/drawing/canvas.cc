@@ -80,14 +80,6 @@ void draw_path(cv::Mat& image, std::span<const Point> path, bool closed, const S
   }
 }
 
-void draw_box(cv::Mat& image, const Box& box, const Stroke& stroke) {
-  const Path corners = {{box.left, box.top},
-                        {box.right(), box.top},
-                        {box.right(), box.bottom()},
-                        {box.left, box.bottom()}};
-  draw_path(image, corners, true, stroke);
-}
-
 void draw_seamed_path(cv::Mat& image, std::span<const Point> path, bool closed,
                       const Stroke& stroke) {
   Stroke seam = stroke;
@@ -95,6 +87,13 @@ void draw_seamed_path(cv::Mat& image, std::span<const Point> path, bool closed,
   seam.width_px += 2;
   draw_path(image, path, closed, seam);
   draw_path(image, path, closed, stroke);
+}
+
+void draw_box(cv::Mat& image, const Box& box, const Stroke& stroke) {
+  const double left = std::round(box.left), right = std::round(box.right());
+  const double top = std::round(box.top), bottom = std::round(box.bottom());
+  const Path corners = {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
+  draw_seamed_path(image, corners, true, stroke);
 }
 
 void fill_convex(cv::Mat& image, std::span<const Point> polygon, const Color& color) {

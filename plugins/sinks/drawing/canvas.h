@@ -23,10 +23,12 @@ struct Stroke {
 };
 
 void draw_path(cv::Mat& image, std::span<const Point> path, bool closed, const Stroke& stroke);
-void draw_box(cv::Mat& image, const Box& box, const Stroke& stroke);
 /// The same with a dark seam on both sides, so that it stands out from any image.
 void draw_seamed_path(cv::Mat& image, std::span<const Point> path, bool closed,
                       const Stroke& stroke);
+
+/// With a seam; its sides at whole pixels, where antialiasing does not blur them.
+void draw_box(cv::Mat& image, const Box& box, const Stroke& stroke);
 
 /// A convex polygon.
 void fill_convex(cv::Mat& image, std::span<const Point> polygon, const Color& color);

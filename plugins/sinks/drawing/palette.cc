@@ -41,7 +41,7 @@ double decode(double encoded) {
 Color color_of(TrackId id) {
   constexpr double kGoldenAngle_rad = std::numbers::pi * (3 - 2.2360679774997896964);
   // Two people whose hues come close again (8 or 13 ids apart) differ in lightness.
-  constexpr std::array kLightness = {0.74, 0.65, 0.80};
+  constexpr std::array kLightness = {0.73, 0.62, 0.83};
   const double hue_rad =
       std::fmod(static_cast<double>(id) * kGoldenAngle_rad, 2 * std::numbers::pi);
   const auto level = static_cast<std::size_t>(((id % 3) + 3) % 3);

@@ -1,6 +1,5 @@
 #include "plugins/sinks/drawing/picture_file.h"
 
-#include <fstream>
 #include <iomanip>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "plaza/core/error.h"
+#include "plaza/io/output_file.h"
 
 namespace plaza::drawing {
 namespace fs = std::filesystem;
@@ -25,28 +25,12 @@ std::string free_space_text(const fs::path& folder) {
   return text.str();
 }
 
-void write_file(const fs::path& file, const std::string& content) {
-  fs::path unfinished = file;
-  unfinished += ".part";
-  std::ofstream out(unfinished, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(unfinished, file, error);
-  if (!out || error) {
-    std::error_code ignored;  // a half-written neighbour that cannot be removed either is harmless
-    fs::remove(unfinished, ignored);
-    throw UserError("cannot write '" + file.string() + "': " + free_space_text(file.parent_path()) +
-                    "; check that the folder exists and may be written to (--out)");
-  }
-}
-
 void write_png(const fs::path& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
   if (!cv::imencode(".png", image, bytes)) {
     throw InternalError("OpenCV could not encode the picture '" + file.string() + "'");
   }
-  write_file(file, std::string(bytes.begin(), bytes.end()));
+  write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::string fault_of_file_name(const std::string& name) {

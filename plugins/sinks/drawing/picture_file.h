@@ -6,10 +6,7 @@
 
 namespace plaza::drawing {
 
-/// Writes a file that is either whole or not there: into a neighbour first, then renamed.
-/// Throws UserError naming file and remedy when the folder cannot be written to or the disk is
-/// full.
-void write_file(const std::filesystem::path& file, const std::string& content);
+/// Whole or not there. Throws UserError naming file, cause and remedy (see OutputFile).
 void write_png(const std::filesystem::path& file, const cv::Mat& image);
 
 /// "12.3 MB are free in '/data/out'", for messages about files that could not be written.

@@ -1,6 +1,7 @@
 #include "plugins/sinks/drawing/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -26,14 +27,18 @@ std::string number(double value) {
   return text;
 }
 
-/// Contours of the ground that a camera sees, in pixels of the plan.
+/// Contours of the ground that a camera sees, in pixels of the plan. They reach a little beyond its
+/// picture, so that a contour drawn there never runs along the picture's border.
 std::vector<std::vector<cv::Point>> seen_ground(const Camera& camera, const PlanMap& map,
                                                 cv::Size size) {
   constexpr int kCell_px = 3;
-  cv::Mat1b seen(size.height / kCell_px + 1, size.width / kCell_px + 1, uchar{0});
+  constexpr int kBeyond = 3;  // cells
+  cv::Mat1b seen(size.height / kCell_px + 1 + 2 * kBeyond, size.width / kCell_px + 1 + 2 * kBeyond,
+                 uchar{0});
   for (int y = 0; y < seen.rows; ++y) {
     for (int x = 0; x < seen.cols; ++x) {
-      const Eigen::Vector2d ground = map.metres(Point(x * kCell_px, y * kCell_px));
+      const Eigen::Vector2d ground =
+          map.metres(Point((x - kBeyond) * kCell_px, (y - kBeyond) * kCell_px));
       const auto pixel = camera.project({ground.x(), ground.y(), 0});
       if (pixel && camera.contains(*pixel)) seen(y, x) = 255;
     }
@@ -41,7 +46,7 @@ std::vector<std::vector<cv::Point>> seen_ground(const Camera& camera, const Plan
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(seen, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   for (auto& contour : contours) {
-    for (cv::Point& p : contour) p *= kCell_px;
+    for (cv::Point& p : contour) p = (p - cv::Point(kBeyond, kBeyond)) * kCell_px;
     std::vector<cv::Point> smooth;
     cv::approxPolyDP(contour, smooth, kCell_px, true);
     contour = std::move(smooth);
@@ -50,14 +55,16 @@ std::vector<std::vector<cv::Point>> seen_ground(const Camera& camera, const Plan
 }
 
 void draw_fields_of_view(Plan& plan, const Scene& scene, const Theme& theme) {
+  // where many cameras look, the ground must not become brighter than people
+  const double tint = std::min(0.06, 0.3 / static_cast<double>(scene.cameras.size()));
   for (const Camera& camera : scene.cameras) {
     const auto contours = seen_ground(camera, plan.map, plan.picture.size());
     cv::Mat layer = plan.picture.clone();
     cv::drawContours(layer, contours, -1, theme.camera, cv::FILLED, cv::LINE_AA);
-    blend(plan.picture, layer, 0.08);
+    blend(plan.picture, layer, tint);
     layer = plan.picture.clone();
     cv::drawContours(layer, contours, -1, theme.camera, 1, cv::LINE_AA);
-    blend(plan.picture, layer, 0.45);
+    blend(plan.picture, layer, 0.3);
   }
 }
 
@@ -113,31 +120,43 @@ Point looking(const Camera& camera) {
   return length < 1e-6 ? Point() : Point(d.x() / length, -d.y() / length);
 }
 
+/// A body with a lens that opens towards what the camera sees.
+void draw_camera_symbol(cv::Mat& picture, Point at, Point ahead, double size, const Color& color) {
+  if (ahead == Point()) {
+    draw_ring(picture, at, 1.2 * size, {color, 1});
+    draw_disk(picture, at, 0.6 * size, color);
+    return;
+  }
+  const Point side(-ahead.y, ahead.x);
+  const auto corner = [&](double along, double across) {
+    return at + ahead * (along * size) + side * (across * size);
+  };
+  fill_convex(picture,
+              Path{corner(-1.5, -0.75), corner(0.3, -0.75), corner(0.3, 0.75), corner(-1.5, 0.75)},
+              color);
+  fill_convex(picture, Path{corner(0.5, 0), corner(1.5, -0.9), corner(1.5, 0.9)}, color);
+}
+
 void draw_camera(Plan& plan, const Camera& camera, const Theme& theme, double text_px) {
   const double inset = 1.2 * text_px;
   const Point exact = plan.map.pixel(camera.centre().head<2>());
-  const Point at(std::clamp(exact.x, inset, plan.picture.cols - 1 - inset),
-                 std::clamp(exact.y, inset, plan.picture.rows - 1 - inset));
-  const double size = 0.55 * text_px;
-  if (const Point ahead = looking(camera); ahead == Point()) {
-    draw_disk(plan.picture, at, size, theme.camera);
-  } else {
-    const Point side(-ahead.y, ahead.x);
-    // a lens that opens towards what it sees
-    const Path lens = {at, at + ahead * (2 * size) + side * size,
-                       at + ahead * (2 * size) - side * size};
-    fill_convex(plan.picture, lens, theme.camera);
-    draw_disk(plan.picture, at, 0.75 * size, theme.camera);
-  }
-  // behind the camera, where it sees nothing, there is room for its name
+  const Point at(std::clamp(exact.x, inset, std::max(inset, plan.picture.cols - 1 - inset)),
+                 std::clamp(exact.y, inset, std::max(inset, plan.picture.rows - 1 - inset)));
+  const Point ahead = looking(camera);
+  draw_camera_symbol(plan.picture, at, ahead, 0.55 * text_px, theme.camera);
+
+  // Behind the camera, where it sees nothing, there is room for its name; else wherever it fits.
   const cv::Size2d name = text_size(camera.name(), text_px);
-  Point corner = at - looking(camera) * (1.4 * text_px) - Point(name.width / 2, name.height / 2);
-  if (looking(camera).x > 0.5) corner.x = at.x - name.width - 0.8 * text_px;
-  if (looking(camera).x < -0.5) corner.x = at.x + 0.8 * text_px;
-  corner.x = std::clamp(corner.x, 0.3 * text_px,
-                        std::max(0.3 * text_px, plan.picture.cols - name.width - 0.3 * text_px));
-  corner.y = std::clamp(corner.y, 0.3 * text_px, plan.picture.rows - 1.3 * text_px);
-  draw_text(plan.picture, camera.name(), corner, {text_px, theme.camera, Anchor::kTopLeft});
+  const double beside = 1.3 * text_px + name.width / 2, over = 1.9 * text_px;
+  const std::array<Point, 5> offsets = {Point(-ahead.x * beside, -ahead.y * over), Point(beside, 0),
+                                        Point(-beside, 0), Point(0, -over), Point(0, over)};
+  for (const Point& offset : offsets) {
+    const cv::Rect2d box(at + offset - Point(name.width / 2, name.height / 2), name);
+    const cv::Rect2d room(2, 2, plan.picture.cols - 4, plan.picture.rows - 4);
+    if ((box & room) != box) continue;
+    draw_text(plan.picture, camera.name(), box.tl(), {text_px, theme.camera, Anchor::kTopLeft});
+    return;
+  }
 }
 
 }  // namespace
@@ -175,27 +194,41 @@ GroundArea plan_extent(const Scene& scene) {
   return extent;
 }
 
+double legend_height(double text_px) { return std::round(3 * text_px); }
+
 Plan draw_plan(const Scene& scene, cv::Size size, const Theme& theme, const PlanStyle& style) {
-  // room for axis labels at the left and lower sides
-  const int left = cvRound(2.5 * style.text_px), below = cvRound(2.0 * style.text_px);
-  const cv::Rect inside(left, 0, std::max(1, size.width - left), std::max(1, size.height - below));
-  Plan plan{cv::Mat(size, CV_8UC3, theme.paper), PlanMap(plan_extent(scene), inside)};
+  // Axis labels need room at the left and below the area, and the strip at the foot is for the
+  // legend.
+  const double u = style.text_px;
+  const int strip_px = std::min(size.height - 1, cvRound(legend_height(u)));
+  const cv::Size ground(size.width, size.height - strip_px);
+  const cv::Rect inside(cvRound(2.5 * u), 0, std::max(1, ground.width - cvRound(2.5 * u)),
+                        std::max(1, ground.height - cvRound(2 * u)));
+  const cv::Mat picture(size, CV_8UC3, theme.paper);
+  Plan plan{picture(cv::Rect({0, 0}, ground)), PlanMap(plan_extent(scene), inside)};
   const Point a = plan.map.pixel(scene.area.min_m), b = plan.map.pixel(scene.area.max_m);
   fill_convex(plan.picture, Path{a, {b.x, a.y}, b, {a.x, b.y}}, theme.floor);
   if (style.fields_of_view) draw_fields_of_view(plan, scene, theme);
-  draw_grid(plan, scene, theme, style.text_px);
-  for (const Camera& camera : scene.cameras) draw_camera(plan, camera, theme, style.text_px);
-  draw_scale_bar(plan, theme, style.text_px);
+  draw_grid(plan, scene, theme, u);
+  for (const Camera& camera : scene.cameras) draw_camera(plan, camera, theme, u);
+  plan.picture = picture;
+  draw_scale_bar(plan, theme, u);
   return plan;
 }
 
-void draw_person(cv::Mat& picture, const PlanMap& map, const PlanPerson& person, double text_px,
-                 const Theme& theme) {
+namespace {
+
+double dot_radius(const PlanMap& map, double text_px) {
+  return std::max(0.5 * text_px, 0.25 * map.px_per_m());
+}
+
+void draw_dot(cv::Mat& picture, const PlanMap& map, const PlanPerson& person, double text_px,
+              const Theme& theme) {
   const Color color = color_of(person.id);
   const Point at = map.pixel(person.position_m);
-  const double radius = std::max(0.5 * text_px, 0.25 * map.px_per_m());
+  const double radius = dot_radius(map, text_px);
   if (person.heading_rad) {
-    const double length_m = 2.4 * radius / map.px_per_m();
+    const double length_m = 3 * radius / map.px_per_m();
     const GroundArrow arrow = ground_arrow(person.position_m, *person.heading_rad, length_m);
     Path head;
     for (const Eigen::Vector2d& corner : arrow.head_m) head.push_back(map.pixel(corner));
@@ -205,8 +238,21 @@ void draw_person(cv::Mat& picture, const PlanMap& map, const PlanPerson& person,
   draw_disk(picture, at, radius + 1, theme.paper);
   draw_disk(picture, at, radius, color);
   if (!person.observed) draw_disk(picture, at, 0.55 * radius, theme.paper);
-  draw_text(picture, std::to_string(person.id), at + Point(radius + 0.4 * text_px, -0.5 * text_px),
-            {text_px, theme.text, Anchor::kTopLeft});
+}
+
+}  // namespace
+
+void draw_people(cv::Mat& picture, const PlanMap& map, std::span<const PlanPerson> people,
+                 double text_px, const Theme& theme) {
+  for (const PlanPerson& person : people) draw_dot(picture, map, person, text_px, theme);
+  for (const PlanPerson& person : people) {  // last, so that no dot hides a neighbour's id
+    // on the side where the arrow isn't
+    const bool left = person.heading_rad && std::cos(*person.heading_rad) > 0.3;
+    const double beside = dot_radius(map, text_px) + 0.4 * text_px;
+    const Point at = map.pixel(person.position_m) + Point(left ? -beside : beside, -0.5 * text_px);
+    draw_text(picture, std::to_string(person.id), at,
+              {text_px, theme.text, left ? Anchor::kTopRight : Anchor::kTopLeft});
+  }
 }
 
 }  // namespace plaza::drawing

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "plaza/geometry/scene.h"
@@ -41,18 +42,22 @@ struct PlanStyle {
   bool fields_of_view = true;
 };
 
+/// Height of the strip at a plan's foot; the scale bar is at its right end.
+double legend_height(double text_px);
+
 /// Area with a metres grid, scale bar, cameras by name, and the ground that each of them sees.
 /// Cameras beyond the picture are marked at its border.
 Plan draw_plan(const Scene& scene, cv::Size size, const Theme& theme, const PlanStyle& style);
 
-/// A person: dot (hollow when not observed), heading, id.
+/// A person in the plan: dot (hollow when not observed), heading, id.
 struct PlanPerson {
   TrackId id = 0;
   Eigen::Vector2d position_m;
   std::optional<double> heading_rad;
   bool observed = true;
 };
-void draw_person(cv::Mat& picture, const PlanMap& map, const PlanPerson& person, double text_px,
-                 const Theme& theme);
+/// Dots first, then ids.
+void draw_people(cv::Mat& picture, const PlanMap& map, std::span<const PlanPerson> people,
+                 double text_px, const Theme& theme);
 
 }  // namespace plaza::drawing

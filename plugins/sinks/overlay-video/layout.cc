@@ -46,8 +46,10 @@ Grid try_grid(int columns, double plan_share, std::size_t views, double view_asp
   const double plan_area = plan_fit * plan_fit / plan_aspect;
   const double view_area = static_cast<double>(views) * g.cell_width * g.cell_height;
   const double filled = (view_area + plan_area) / (width * g.height);
-  // Views are what people look at first; a plan gains little beyond a third of the picture.
-  g.merit = filled * filled * (view_area + std::min(plan_area, 0.15 * width * width));
+  // People in a plan are dots: up to the area of three views it counts more than views do, and
+  // beyond that it gains nothing.
+  const double useful = std::min(0.2 * width * width, 3 * g.cell_width * g.cell_height);
+  g.merit = filled * filled * (view_area + 2 * std::min(plan_area, useful));
   return g;
 }
 

@@ -190,10 +190,11 @@ void OverlayVideo::paint_plan(const RenderFrame& frame) {
       drawing::draw_path(picture, path, false, {drawing::color_of(id), 2});
     }
   }
+  std::vector<drawing::PlanPerson> people;
   for (const TrackPoint& t : frame.tracks) {
-    drawing::draw_person(picture, map, {t.id, t.position_m, t.heading_rad, t.observed}, text_px,
-                         theme);
+    people.push_back({t.id, t.position_m, t.heading_rad, t.observed});
   }
+  drawing::draw_people(picture, map, people, text_px, theme);
 }
 
 void OverlayVideo::write_still(std::int64_t frame) {

@@ -22,7 +22,7 @@ class OverlayVideo final : public Renderer {
   struct Options {
     std::string file = "overlay.mp4";
     Codec codec = Codec::kAuto;
-    int width_px = 1600;
+    int width_px = 1280;
     Draw draw = Draw::kBoxes;
     double trail_s = 3;
     bool truth = false;

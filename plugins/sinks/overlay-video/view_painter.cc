@@ -45,6 +45,7 @@ ViewPainter::ViewPainter(const Scene& scene, std::size_t camera, cv::Size tile,
 
 void ViewPainter::paint(cv::Mat tile, const ViewContent& content) {
   paint_background(tile, content.image);
+  if (content.truth) paint_truth(tile, *content.truth);
   if (content.trails) paint_trails(tile, *content.trails);
 
   // Whoever stands nearer hides who is behind, in the drawing as in the world.
@@ -55,11 +56,11 @@ void ViewPainter::paint(cv::Mat tile, const ViewContent& content) {
     return (a->position_m - eye).squaredNorm() > (b->position_m - eye).squaredNorm();
   });
   for (const TrackPoint* person : people) paint_person(tile, *person);
-  if (content.truth) paint_truth(tile, *content.truth);
   for (const TrackPoint* person : people) paint_label(tile, *person);
 
   const double gap = std::round(0.5 * text_px_);
-  drawing::draw_plate(tile, camera_.name(), {gap, gap}, {text_px_, drawing::dark_theme().paper});
+  const std::string name = camera_.name() + (has_shown_image_ ? "" : " (no images)");
+  drawing::draw_plate(tile, name, {gap, gap}, {text_px_, drawing::dark_theme().paper});
 }
 
 void ViewPainter::paint_background(cv::Mat& tile, const cv::Mat& image) {
@@ -79,7 +80,8 @@ void ViewPainter::paint_background(cv::Mat& tile, const cv::Mat& image) {
     return;
   }
   tile.setTo(drawing::dark_theme().paper * 0.7);
-  drawing::draw_text(tile, "no image", Point(tile_.width / 2.0, tile_.height / 2.0),
+  // near the foot, where it is in nobody's way
+  drawing::draw_text(tile, "no image", Point(tile_.width / 2.0, 0.9 * tile_.height),
                      {1.6 * text_px_, drawing::dark_theme().quiet_text, Anchor::kCentre});
 }
 
@@ -103,7 +105,6 @@ void ViewPainter::paint_truth(cv::Mat& tile, const GroundTruth& truth) const {
       if (view.camera != index_) continue;
       const Box box = scaled(view.box);
       if (!in_picture(box)) continue;
-      drawing::draw_box(tile, box, {Color(0, 0, 0), 1});
       drawing::draw_box(tile, box, {kTruth, 1, 4});
     }
   }
@@ -121,11 +122,7 @@ void ViewPainter::paint_person(cv::Mat& tile, const TrackPoint& person) const {
   }
   if (style_.draw != Draw::kCylinders) {
     if (const auto box = box_of(person); box && in_picture(*box)) {
-      const Path corners = {{box->left, box->top},
-                            {box->right(), box->top},
-                            {box->right(), box->bottom()},
-                            {box->left, box->bottom()}};
-      drawing::draw_seamed_path(tile, corners, true, stroke);
+      drawing::draw_box(tile, *box, stroke);
     }
   }
   if (person.heading_rad) {

@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "plaza/io/output_file.h"
 #include "plugins/sinks/drawing/picture_file.h"
 #include "plugins/sinks/summary/trajectories.h"
 
@@ -92,7 +93,7 @@ std::vector<Artifact> Summary::do_finish(bool complete) {
   const std::filesystem::path page_file = folder_ / options_.file,
                               plan_file = folder_ / options_.plan;
   drawing::write_png(plan_file, draw_trajectories(*scene_, people, options_.plan_width_px));
-  drawing::write_file(page_file, page(people, complete));
+  write_file(page_file, page(people, complete));
   const std::string partial = complete ? "" : ", partial";
   return {{page_file, "summary of people and counts" + partial},
           {plan_file, "plan from above with every trajectory" + partial}};

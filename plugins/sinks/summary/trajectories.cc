@@ -97,7 +97,7 @@ cv::Mat draw_trajectories(const Scene& scene, const Trajectories& people, int wi
   const Eigen::Vector2d size_m = extent.max_m - extent.min_m;
   const double height =
       std::clamp(width_px * size_m.y() / size_m.x(), 0.3 * width_px, 2.0 * width_px);
-  const int legend_px = static_cast<int>(3 * text_px);
+  const int legend_px = static_cast<int>(drawing::legend_height(text_px));
   const cv::Size size(width_px, static_cast<int>(height) + legend_px);
   drawing::Plan plan = drawing::draw_plan(scene, size, theme, {text_px, true});
   Sheet sheet{plan.picture, plan.map, text_px, scene.frame_rate_hz};
