@@ -15,7 +15,7 @@ constexpr double kContinuationBonus = 1000;
 constexpr int kNobody = -1;
 
 double ratio(double numerator, std::int64_t denominator) {
-  return numerator / std::max(1.0, static_cast<double>(denominator));
+  return denominator > 0 ? numerator / static_cast<double>(denominator) : 0.0;
 }
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }

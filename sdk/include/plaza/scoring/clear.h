@@ -11,7 +11,7 @@ namespace plaza {
 /// CLEAR MOT (K. Bernardin and R. Stiefelhagen, "Evaluating multiple object tracking performance",
 /// 2008) as TrackEval counts it. Ratios are fractions; where there is nothing to divide by, they
 /// are 0, as there.
-struct ClearScores {
+struct PLAZA_API ClearScores {
   std::int64_t tp = 0, fn = 0, fp = 0;
   std::int64_t id_switches = 0;
   std::int64_t fragments = 0;

@@ -11,7 +11,7 @@ namespace plaza {
 
 /// Scores of people found frame by frame, without regard to who is who. Nothing where there is
 /// nothing to divide by.
-struct DetectionScores {
+struct PLAZA_API DetectionScores {
   std::int64_t tp = 0, fn = 0, fp = 0;
   double goodness_sum = 0;             ///< over the matches, each in [0, 1]
   std::vector<double> frame_goodness;  ///< mean over the matches of each frame that has any

@@ -10,7 +10,7 @@ namespace plaza {
 /// Identity scores (E. Ristani et al., "Performance measures and a data set for multi-target,
 /// multi-camera tracking", 2016): one assignment of whole trajectories. 0 where there is nothing to
 /// divide by.
-struct IdentityScores {
+struct PLAZA_API IdentityScores {
   std::int64_t idtp = 0, idfn = 0, idfp = 0;
 
   double idf1() const;

@@ -10,7 +10,7 @@ namespace plaza {
 
 /// CLEAR MOT as py-motmetrics 1.2.0 counts it, the field's choice on the ground plane. Nothing
 /// where there is nothing to divide by.
-struct PersistentClearScores {
+struct PLAZA_API PersistentClearScores {
   std::int64_t frames = 0;
   std::int64_t objects = 0;      ///< true people, summed over the frames
   std::int64_t predictions = 0;  ///< the same of the result
