@@ -174,29 +174,48 @@ bool BoxGround::plausible(const Camera& camera, const Box& box, const Standing& 
 
 std::vector<Observation> BoxGround::observe(std::size_t camera,
                                             std::span<const ImageDetection> detections) const {
+  // What no person can look like must not suppress what one can, so plausibility comes first; the
+  // area comes last, because somebody outside of it may well hide a weaker echo inside.
   std::vector<ImageDetection> candidates;
   for (const ImageDetection& d : detections) {
-    if (d.score >= options_.min_score && d.box.width > 0 && d.box.height > 0) {
-      candidates.push_back(d);
-    }
+    if (d.score < options_.min_score || !(d.box.width > 0) || !(d.box.height > 0)) continue;
+    const auto standing = locate(camera, d.box);
+    if (!standing || !plausible(scene_->cameras[camera], d.box, *standing)) continue;
+    candidates.push_back(d);
   }
   const GroundArea area = grown(scene_->area, options_.margin_m);
   std::vector<Observation> observations;
   for (const std::size_t i : suppress_overlapping(candidates, options_.nms_overlap)) {
-    const ImageDetection& d = candidates[i];
-    const auto standing = locate(camera, d.box);
-    if (!standing || !area.contains(standing->position_m) ||
-        !plausible(scene_->cameras[camera], d.box, *standing)) {
-      continue;
-    }
+    const Box box = voted(candidates[i].box, candidates);
+    const auto standing = locate(camera, box);
+    if (!standing || !area.contains(standing->position_m)) continue;
     Observation o;
     o.position_m = standing->position_m;
     o.covariance_m2 = standing->covariance_m2;
-    o.probability = curve_(d.score);
-    o.boxes.push_back({.camera = camera, .box = d.box, .score = d.score});
+    o.probability = curve_(candidates[i].score);
+    o.boxes.push_back({.camera = camera, .box = box, .score = candidates[i].score});
     observations.push_back(std::move(o));
   }
   return observations;
+}
+
+Box BoxGround::voted(const Box& box, std::span<const ImageDetection> candidates) const {
+  if (options_.vote_overlap >= 1) return box;
+  double weight = 0;
+  Box sum{};
+  for (const ImageDetection& d : candidates) {
+    if (intersection_over_union(box, d.box) < options_.vote_overlap) continue;
+    const double w = curve_(d.score);
+    weight += w;
+    sum.left += w * d.box.left;
+    sum.top += w * d.box.top;
+    sum.width += w * d.box.width;
+    sum.height += w * d.box.height;
+  }
+  return {.left = sum.left / weight,
+          .top = sum.top / weight,
+          .width = sum.width / weight,
+          .height = sum.height / weight};
 }
 
 std::vector<std::size_t> suppress_overlapping(std::span<const ImageDetection> detections,

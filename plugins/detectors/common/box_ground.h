@@ -19,6 +19,7 @@ namespace plaza {
 struct BoxGroundOptions {
   double min_score = 0.0;
   double nms_overlap = 0.6;
+  double vote_overlap = 1.0;
   std::vector<std::vector<double>> probability = {{0.0, 0.05}, {0.5, 0.5}, {1.0, 0.95}};
   double foot_offset = 0.0;
   double foot_offset_px = 0.0;
@@ -62,6 +63,9 @@ class BoxGround {
   std::optional<Standing> from_plane(const Camera& camera, const Eigen::Vector2d& pixel,
                                      double sigma_x_px, double sigma_y_px, double z_m,
                                      double sigma_z_m) const;
+  /// Mean of the boxes that overlap `box` enough, itself among them, weighted by their
+  /// probabilities.
+  Box voted(const Box& box, std::span<const ImageDetection> candidates) const;
   bool plausible(const Camera& camera, const Box& box, const Standing& standing) const;
 
   BoxGroundOptions options_;
@@ -87,6 +91,13 @@ void add_box_ground_parameters(Parameters<Options>& p) {
       .at_least(0)
       .at_most(1)
       .meaning("of two boxes of a view whose intersection over union is larger, the better stays");
+  real("vote_overlap", &BoxGroundOptions::vote_overlap)
+      .above(0)
+      .at_most(1)
+      .meaning(
+          "a box that stays becomes the mean of those that overlap it at least so much; 1: it "
+          "stays as it is")
+      .source("S. Gidaris and N. Komodakis, Object detection via a multi-region CNN, ICCV 2015");
   p.value("probability",
           static_cast<std::vector<std::vector<double>> Options::*>(&BoxGroundOptions::probability))
       .meaning("calibration of scores: [score, probability] points, linear between, flat beyond");
