@@ -1,0 +1,3 @@
+#include "walking_direction.h"
+
+PLAZA_PLUGIN(registrar) { registrar.add<consumer::WalkingDirection>(); }

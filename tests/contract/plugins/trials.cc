@@ -1,0 +1,180 @@
+#include "tests/contract/plugins/trials.h"
+
+#include <fstream>
+#include <functional>
+#include <iomanip>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+#include <utility>
+
+namespace plaza::contract {
+namespace {
+
+namespace fs = std::filesystem;
+using Values = nlohmann::json;
+
+Trial trial(std::string label, Values values) {
+  Trial t;
+  t.label = std::move(label);
+  t.values = std::move(values);
+  return t;
+}
+
+std::vector<Trial> defaults() { return {Trial()}; }
+
+Values by_camera(const World& world, const std::function<std::string(std::size_t)>& value) {
+  Values out = Values::object();
+  for (std::size_t c = 0; c < world.scene()->cameras.size(); ++c) {
+    out[world.scene()->cameras[c].name()] = value(c);
+  }
+  return out;
+}
+
+/// MOTChallenge rows of the world's detections, one file per camera.
+Values detection_files(const World& world, const fs::path& folder) {
+  return by_camera(world, [&](std::size_t camera) {
+    const fs::path file = folder / ("detections" + std::to_string(camera) + ".txt");
+    std::ofstream out(file);
+    out << std::setprecision(10);
+    for (std::int64_t frame = 0; frame < world.frame_count(); ++frame) {
+      for (const ImageDetection& d : world.detections(frame).views[camera]) {
+        out << frame + 1 << ",-1," << d.box.left << ',' << d.box.top << ',' << d.box.width << ','
+            << d.box.height << ',' << d.score << '\n';
+      }
+    }
+    return file.string();
+  });
+}
+
+/// frame,id,x_m,y_m of the true people.
+std::string ground_file(const World& world, const fs::path& folder) {
+  const fs::path file = folder / "ground.csv";
+  std::ofstream out(file);
+  out << std::setprecision(10);
+  for (std::int64_t frame = 0; frame < world.frame_count(); ++frame) {
+    for (const TruePerson& p : world.ground_truth(frame).people) {
+      out << frame + 1 << ',' << p.id << ',' << p.position_m->x() << ',' << p.position_m->y()
+          << '\n';
+    }
+  }
+  return file.string();
+}
+
+/// Numbered images; a view that is missing has no file.
+Values image_files(const World& world, const fs::path& folder) {
+  return by_camera(world, [&](std::size_t camera) {
+    const fs::path views = folder / ("view" + std::to_string(camera));
+    fs::create_directories(views);
+    for (std::int64_t frame = 0; frame < world.frame_count(); ++frame) {
+      const cv::Mat& image = world.frames(frame).views[camera];
+      if (!image.empty())
+        cv::imwrite((views / (std::to_string(100 + frame) + ".png")).string(), image);
+    }
+    return (views / "{frame}.png").string();
+  });
+}
+
+Values video_files(const World& world, const fs::path& folder) {
+  return by_camera(world, [&](std::size_t camera) {
+    const fs::path file = folder / ("view" + std::to_string(camera) + ".avi");
+    const Camera& c = world.scene()->cameras[camera];
+    cv::VideoWriter writer(file.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
+                           world.scene()->frame_rate_hz, {c.width(), c.height()});
+    for (std::int64_t frame = 0; frame < world.frame_count(); ++frame) {
+      const cv::Mat& image = world.frames(frame).views[camera];
+      writer.write(image.empty() ? world.people_free(frame).views[camera] : image);
+    }
+    return file.string();
+  });
+}
+
+Trial follower(Trial t) {
+  t.role = SourceRole::kFollower;
+  t.label += ", beside another source";
+  return t;
+}
+
+/// What detectors of single views give: the boxes of an observation, one observation each.
+std::shared_ptr<const World> world_of_single_views() {
+  auto world = std::make_shared<World>();
+  std::vector<PayloadPtr> frames;
+  for (std::int64_t frame = 0; frame < world->frame_count(); ++frame) {
+    auto split = std::make_shared<Observations>();
+    for (const Observation& o : world->observations(frame).items) {
+      for (const ViewBox& box : o.boxes) {
+        split->items.push_back(o);
+        split->items.back().boxes = {box};
+      }
+    }
+    frames.push_back(split);
+  }
+  world->provide(std::string(Observations::kPort), frames);
+  return world;
+}
+
+using Maker = std::function<std::vector<Trial>(const fs::path& files)>;
+
+const std::map<std::string, Maker>& table() {
+  static const std::map<std::string, Maker> kTable = {
+      // sources
+      {"detections",
+       [](const fs::path& files) {
+         const Trial t = trial("files", {{"files", detection_files(World(), files)}});
+         return std::vector<Trial>{t, follower(t)};
+       }},
+      {"ground-truth",
+       [](const fs::path& files) {
+         const Trial t = trial("ground positions", {{"ground", ground_file(World(), files)}});
+         return std::vector<Trial>{follower(t)};
+       }},
+      {"images",
+       [](const fs::path& files) {
+         const Values pattern = image_files(World(), files);
+         return std::vector<Trial>{trial("numbered files", {{"pattern", pattern}}),
+                                   trial("every third", {{"pattern", pattern}, {"step", 3}})};
+       }},
+      {"video",
+       [](const fs::path& files) {
+         return std::vector<Trial>{
+             trial("motion JPEG", {{"files", video_files(World(1, 15), files)}})};
+       }},
+      // models
+      {"constant-velocity",
+       [](const fs::path&) {
+         return std::vector<Trial>{Trial(), trial("restless", {{"acceleration_sigma", 5.0}})};
+       }},
+      // detectors
+      {"boxes", [](const fs::path&) { return defaults(); }},
+      {"hog", [](const fs::path&) { return defaults(); }},
+      {"ground-fusion",
+       [](const fs::path&) {
+         std::vector<Trial> trials = {Trial(), trial("two views", {{"min_views", 2}})};
+         for (Trial& t : trials) t.world = world_of_single_views();
+         return trials;
+       }},
+      // associators
+      {"gnn",
+       [](const fs::path&) {
+         return std::vector<Trial>{Trial(), trial("keep", {{"reentry", "keep"}}),
+                                   trial("unsmoothed", {{"smoothing_s", 0.0}}),
+                                   trial("at once", {{"confirm", 1}, {"coast_s", 0.0}})};
+       }},
+      // evaluators
+      {"detection-scores", [](const fs::path&) { return defaults(); }},
+      {"tracking-scores", [](const fs::path&) { return defaults(); }},
+      {"ground-scores", [](const fs::path&) { return defaults(); }},
+      // sinks and renderers
+      {"overlay-video", [](const fs::path&) { return defaults(); }},
+      {"summary", [](const fs::path&) { return defaults(); }},
+  };
+  return kTable;
+}
+
+}  // namespace
+
+std::vector<Trial> trials_of(const std::string& component, const fs::path& files) {
+  const auto it = table().find(component);
+  return it == table().end() ? std::vector<Trial>() : it->second(files);
+}
+
+}  // namespace plaza::contract
