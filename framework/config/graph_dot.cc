@@ -22,6 +22,12 @@ std::string dot_text(const std::string& text) {
   return out + "\"";
 }
 
+std::string node_id(int node) {
+  std::string id(1, 'n');
+  id += std::to_string(node);
+  return id;
+}
+
 std::string title(const ResolvedPart& part) {
   const std::string& use = part.entry->declaration.name;
   return part.name == use ? part.name : part.name + "\n" + use;
@@ -62,7 +68,7 @@ std::string graph_dot(const ResolvedPipeline& pipeline) {
                     "  edge [fontname=\"sans-serif\", fontsize=10];\n";
   for (std::size_t i = 0; i < pipeline.nodes.size(); ++i) {
     const ResolvedNode& node = pipeline.nodes[i];
-    const std::string id = "n" + std::to_string(i);
+    const std::string id = node_id(static_cast<int>(i));
     const bool has_parts = std::any_of(node.parts.begin(), node.parts.end(),
                                        [](const auto& list) { return !list.second.empty(); });
     const std::string declared = id + " [label=" + dot_text(title(node)) +
@@ -86,7 +92,7 @@ std::string graph_dot(const ResolvedPipeline& pipeline) {
       label += input_type(pipeline, node, k);
     }
     for (const auto& [producer, label] : labels) {
-      out += "  n" + std::to_string(producer) + " -> n" + std::to_string(i) +
+      out += "  " + node_id(producer) + " -> " + node_id(static_cast<int>(i)) +
              " [label=" + dot_text(label) + "];\n";
     }
   }
