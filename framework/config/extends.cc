@@ -76,13 +76,20 @@ void merge_list(std::vector<ConfigValue>& base, std::vector<ConfigValue> changes
       remove_named(base, change, diagnostics);
       continue;
     }
+    const bool has_use = use != nullptr;
     bool placed = false;
     const std::string name = config_name(change);
     auto place = take_place(base, change, placed, diagnostics);
     // an item without any name can't be matched; appended, it gets the error it deserves
     const auto found = name.empty() ? base.end() : find_named(base, name);
     if (found == base.end()) {
-      base.insert(place, std::move(change));
+      if (!has_use && !name.empty() && diagnostics != nullptr) {
+        const std::string hint = did_you_mean(name, names_of(base));
+        diagnostics->add(change.origin, "there is no " + quote(name) + " to be changed" +
+                                            (hint.empty() ? "; a new one needs a \"use\"" : hint));
+      } else {
+        base.insert(place, std::move(change));
+      }
       continue;
     }
     merge_component(*found, std::move(change));
