@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plaza/core/diagnostic.h"
+#include "plaza/core/error.h"
 #include "plaza/geometry/scene.h"
 
 namespace plaza::sources {
@@ -18,6 +21,17 @@ Diagnostic fault_at(std::string pointer, std::string message);
 
 /// JSON pointer of one camera's entry, "/files/view1"; "~" and "/" in names are escaped (RFC 6901).
 std::string entry_pointer(const std::string& parameter, const std::string& camera);
+
+/// Calls `body`; its errors are said to be of this camera and, where it is known, frame (from 0).
+template <class F>
+auto with_camera(const Camera& camera, std::optional<std::int64_t> frame, const F& body) {
+  try {
+    return body();
+  } catch (Error& error) {
+    error.add_context({.component = {}, .frame = frame, .camera = camera.name()});
+    throw;
+  }
+}
 
 /// "768x576".
 std::string size_text(int width, int height);

@@ -133,12 +133,8 @@ SourceInfo ImagesSource::do_open() {
   for (std::size_t c = 0; c < scene_->cameras.size(); ++c) {
     const auto pattern = options_.pattern.find(scene_->cameras[c].name());
     if (pattern == options_.pattern.end()) continue;
-    try {
-      series_[c] = list_images(pattern->second);
-    } catch (Error& error) {
-      error.add_context({.component = {}, .frame = {}, .camera = scene_->cameras[c].name()});
-      throw;
-    }
+    series_[c] =
+        with_camera(scene_->cameras[c], std::nullopt, [&] { return list_images(pattern->second); });
   }
   numbering_ = number_frames(series_);
   return {.frame_count = numbering_.frames};
@@ -177,13 +173,8 @@ bool ImagesSource::do_read(NodeIo& io) {
   frames->time_ns = io.time_ns();
   frames->views.resize(scene_->cameras.size());
   parallel_for(scene_->cameras.size(), [&](std::size_t c) {
-    try {
-      frames->views[c] = read_view(c, io.frame());
-    } catch (Error& error) {
-      error.add_context(
-          {.component = {}, .frame = io.frame(), .camera = scene_->cameras[c].name()});
-      throw;
-    }
+    frames->views[c] =
+        with_camera(scene_->cameras[c], io.frame(), [&] { return read_view(c, io.frame()); });
   });
   io.out(0, std::move(frames));
   return true;

@@ -113,12 +113,9 @@ SourceInfo VideoSource::do_open() {
   for (std::size_t camera = 0; camera < scene_->cameras.size(); ++camera) {
     const auto file = options_.files.find(scene_->cameras[camera].name());
     if (file == options_.files.end()) continue;
-    try {
+    with_camera(scene_->cameras[camera], std::nullopt, [&] {
       views_.push_back({camera, std::make_unique<VideoFile>(file->second)});
-    } catch (Error& error) {
-      error.add_context({.component = {}, .frame = {}, .camera = scene_->cameras[camera].name()});
-      throw;
-    }
+    });
   }
   if (views_.empty()) throw UserError("no camera of the scene has a video in \"files\"");
   SourceInfo info;
@@ -170,23 +167,39 @@ void VideoSource::check_end(const VideoFile& video) const {
 void VideoSource::do_seek(std::int64_t frame) {
   std::vector<char> reached(views_.size());
   parallel_for(views_.size(), [&](std::size_t i) {
-    reached[i] = views_[i].video->reach(file_frame(frame)) ? 1 : 0;
+    with_camera(scene_->cameras[views_[i].camera], frame,
+                [&] { reached[i] = views_[i].video->reach(file_frame(frame)) ? 1 : 0; });
   });
-  const auto ended = [&](std::size_t i) { return reached[i] == 0; };
-  std::optional<std::size_t> first_ended;
-  std::size_t count_ended = 0;
-  for (std::size_t i = 0; i < views_.size(); ++i) {
-    if (!ended(i)) continue;
-    if (!first_ended) first_ended = i;
-    ++count_ended;
+  const auto over = static_cast<std::size_t>(std::ranges::count(reached, 0));
+  if (!at_end(over)) return;
+  const auto ended = std::ranges::find(reached, 0) - reached.begin();
+  const View& view = views_[static_cast<std::size_t>(ended)];
+  with_camera(scene_->cameras[view.camera], frame, [&] {
+    throw UserError("frame " + std::to_string(frame + 1) +
+                    " is beyond the end: " + view.video->path().string() + " gives " +
+                    std::to_string(run_frames(view.video->end().value_or(0))) + " frames");
+  });
+}
+
+bool VideoSource::at_end(std::size_t ended) const {
+  return options_.uneven == Uneven::kShortest ? ended > 0 : ended == views_.size();
+}
+
+cv::Mat VideoSource::read_view(const View& view, std::int64_t frame, char& ended) const {
+  std::optional<cv::Mat> image = view.video->read(file_frame(frame));
+  if (!image) {
+    check_end(*view.video);
+    ended = 1;
+    return {};
   }
-  if (!first_ended || (options_.uneven == Uneven::kMissing && count_ended < views_.size())) return;
-  const View& view = views_[*first_ended];
-  UserError error("frame " + std::to_string(frame + 1) +
-                  " is beyond the end: " + view.video->path().string() + " gives " +
-                  std::to_string(run_frames(view.video->end().value_or(0))) + " frames");
-  error.add_context({.component = {}, .frame = {}, .camera = scene_->cameras[view.camera].name()});
-  throw error;
+  const Camera& camera = scene_->cameras[view.camera];
+  if (!image->empty() && (image->cols != camera.width() || image->rows != camera.height())) {
+    throw UserError("frame " + std::to_string(frame + 1) + " of " + view.video->path().string() +
+                    " is " + size_text(image->cols, image->rows) + ", the calibration is for " +
+                    size_text(camera.width(), camera.height()) +
+                    "; cut the file there, or convert all of it to one size");
+  }
+  return std::move(*image);
 }
 
 bool VideoSource::do_read(NodeIo& io) {
@@ -196,30 +209,11 @@ bool VideoSource::do_read(NodeIo& io) {
   frames->views.resize(scene_->cameras.size());
   std::vector<char> ended(views_.size());
   parallel_for(views_.size(), [&](std::size_t i) {
-    const Camera& camera = scene_->cameras[views_[i].camera];
-    try {
-      std::optional<cv::Mat> image = views_[i].video->read(file_frame(io.frame()));
-      if (!image) {
-        check_end(*views_[i].video);
-        ended[i] = 1;
-      } else if (!image->empty() &&
-                 (image->cols != camera.width() || image->rows != camera.height())) {
-        throw UserError("frame " + std::to_string(io.frame() + 1) + " of " +
-                        views_[i].video->path().string() + " is " +
-                        size_text(image->cols, image->rows) + ", the calibration is for " +
-                        size_text(camera.width(), camera.height()) +
-                        "; cut the file there, or convert all of it to one size");
-      } else {
-        frames->views[views_[i].camera] = std::move(*image);
-      }
-    } catch (Error& error) {
-      error.add_context({.component = {}, .frame = io.frame(), .camera = camera.name()});
-      throw;
-    }
+    const std::size_t camera = views_[i].camera;
+    frames->views[camera] = with_camera(scene_->cameras[camera], io.frame(),
+                                        [&] { return read_view(views_[i], io.frame(), ended[i]); });
   });
-  const auto over = static_cast<std::size_t>(std::ranges::count(ended, 1));
-  const bool at_end = options_.uneven == Uneven::kShortest ? over > 0 : over == views_.size();
-  if (at_end) return false;
+  if (at_end(static_cast<std::size_t>(std::ranges::count(ended, 1)))) return false;
   io.out(0, std::move(frames));
   return true;
 }

@@ -50,7 +50,11 @@ class VideoSource final : public Source {
 
   std::int64_t file_frame(std::int64_t frame) const;
   std::int64_t run_frames(std::int64_t file_frames) const;
+  /// Throws UserError when a video ended well before its header says.
   void check_end(const VideoFile& video) const;
+  /// Is the run over when that many videos are?
+  bool at_end(std::size_t ended) const;
+  cv::Mat read_view(const View& view, std::int64_t frame, char& ended) const;
 
   Options options_;
   std::shared_ptr<const Scene> scene_;
