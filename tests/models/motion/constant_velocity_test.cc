@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "plaza/contract/gtest.h"
+
 namespace plaza {
 namespace {
 
@@ -98,6 +100,10 @@ TEST(ConstantVelocity, CovarianceIsThatOfTheErrors) {
     nees += e.dot(m.position_covariance(s).inverse() * e) / kRuns;
   }
   EXPECT_NEAR(nees, 2.0, 0.25);
+}
+
+TEST(ConstantVelocity, KeepsTheContract) {
+  contract::expect_kept(contract::subject_of<ConstantVelocity>());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "plaza/contract/gtest.h"
 #include "plaza/core/error.h"
 #include "tests/plugins/associators/gnn_script.h"
 
@@ -251,6 +252,18 @@ TEST(Gnn, RandomCrowdsGiveTheSameAnswerTwiceAndBreakNoPromise) {
   const std::vector<double> once = play();
   EXPECT_GT(once.size(), 1000U);
   EXPECT_EQ(once, play());
+}
+
+TEST(Gnn, KeepsTheContract) {
+  contract::Trial trial;
+  trial.finder = [](const std::string& name) -> std::optional<contract::Subject> {
+    if (name != "constant-velocity") return std::nullopt;
+    return contract::subject_of<ConstantVelocity>();
+  };
+  contract::expect_kept(contract::subject_of<Gnn>(), trial);
+  trial.label = "smoothing, coasting, keeping identities";
+  trial.values = {{"smoothing_s", 0.5}, {"coast_s", 0.3}, {"reentry", "keep"}, {"confirm", 1}};
+  contract::expect_kept(contract::subject_of<Gnn>(), trial);
 }
 
 }  // namespace
