@@ -26,6 +26,16 @@ void check_declared(const ComponentDeclaration& declaration, const Evaluation& e
   }
 }
 
+/// Two evaluators may share a section (detection and tracking by one definition): as long as they
+/// do not say different things under one name.
+bool agree(const nlohmann::json& a, const nlohmann::json& b) {
+  if (!a.is_object() || !b.is_object()) return false;
+  for (const auto& [key, value] : b.items()) {
+    if (const auto it = a.find(key); it != a.end() && *it != value) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Evaluation evaluate_branch(const Branch& branch, const ExecutionPlan& plan) {
@@ -36,7 +46,14 @@ Evaluation evaluate_branch(const Branch& branch, const ExecutionPlan& plan) {
       const Evaluation evaluation = dynamic_cast<Evaluator&>(*node.node).evaluate();
       check_declared(node.resolved->entry->declaration, evaluation);
       for (const auto& [section, values] : evaluation) {
-        all.emplace(all.contains(section) ? section + "@" + node.name : section, values);
+        const auto known = all.find(section);
+        if (known == all.end()) {
+          all.emplace(section, values);
+        } else if (agree(known->second, values)) {
+          known->second.update(values);
+        } else {
+          all.emplace(section + "@" + node.name, values);
+        }
       }
     });
   }

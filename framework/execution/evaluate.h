@@ -10,9 +10,9 @@
 
 namespace plaza {
 
-/// The figures of all evaluators of a branch. When two of them give a section of the same name, the
-/// later one's is called "<section>@<node>". A figure that its component does not declare is an
-/// InternalError.
+/// The figures of all evaluators of a branch. Sections of the same name are joined when their
+/// figures do not contradict each other; else the later one is called "<section>@<node>". A number
+/// that its component declares neither as a metric nor as a parameter is an InternalError.
 Evaluation evaluate_branch(const Branch& branch, const ExecutionPlan& plan);
 
 }  // namespace plaza

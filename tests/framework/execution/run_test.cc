@@ -168,13 +168,18 @@ TEST_F(RunTest, FurtherBranchesHaveFoldersAndFiguresOfTheirOwn) {
   EXPECT_EQ(report.branches.size(), 1u);
 }
 
-TEST_F(RunTest, TwoEvaluatorsOfOneSectionAreKeptApart) {
+TEST_F(RunTest, EvaluatorsShareASectionUnlessTheyContradictEachOther) {
   json nodes = plain_nodes();
-  nodes.push_back({{"use", "test-scores"}, {"name", "again"}});
-  const RunReport report = run(nodes);
+  nodes[4]["leave_out"] = {"truth"};
+  nodes.push_back({{"use", "test-scores"}, {"name", "rest"}, {"leave_out", {"points", "space"}}});
+  const json all = {{"points", 80}, {"truth", 40}, {"space", "ground"}};
+  RunReport report = run(nodes);
+  EXPECT_EQ(report.evaluation, (Evaluation{{"tracking", all}}));
+  nodes.push_back({{"use", "test-scores"}, {"name", "less"}, {"flushed", false}});
+  report = run(nodes, "contradiction");
   EXPECT_EQ(report.evaluation.size(), 2u);
-  EXPECT_TRUE(report.evaluation.contains("tracking"));
-  EXPECT_TRUE(report.evaluation.contains("tracking@again"));
+  EXPECT_EQ(report.evaluation["tracking"], all);
+  EXPECT_EQ(report.evaluation["tracking@less"]["points"], 74);
 }
 
 TEST_F(RunTest, RenderersGetImagesAgainWithFinalTracks) {
