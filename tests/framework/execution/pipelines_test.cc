@@ -1,0 +1,89 @@
+// Every pipeline that comes with Plaza: the check passes, and any number of threads gives the same
+// bytes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/plugin/loader.h"
+#include "framework/scene/scene_file.h"
+#include "tests/support/execution_fixture.h"
+
+namespace plaza {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Registry& real_registry() {
+  static const Registry registry = [] {
+    Registry r;
+    load_plugins({fs::path(PLAZA_BINARY_DIR) / "lib/plaza/plugins"}, r);
+    return r;
+  }();
+  return registry;
+}
+
+std::vector<std::string> all_pipelines() {
+  std::vector<std::string> names;
+  const fs::path root = fs::path(PLAZA_SOURCE_DIR) / "pipelines";
+  if (!fs::is_directory(root)) return names;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    const fs::path name = entry.path().lexically_relative(root);
+    const std::string folder = name.begin()->string();
+    if (entry.path().extension() == ".json" && folder != "scenes" && folder != "studies") {
+      names.push_back(name.string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class PipelinesTest : public test::RunFixture, public ::testing::WithParamInterface<std::string> {
+ protected:
+  void SetUp() override {
+    file_ = fs::path(PLAZA_SOURCE_DIR) / "pipelines" / GetParam();
+    const fs::path data = resolve_path("$PLAZA_DATA", file_);
+    if (!fs::is_directory(data)) GTEST_SKIP() << "no data in " << data << " (set PLAZA_DATA)";
+  }
+  fs::path file_;
+};
+
+TEST_P(PipelinesTest, PassesTheCheck) {
+  const ResolvedPipeline pipeline = read_pipeline({.file = file_, .sets = {}}, real_registry());
+  const auto scene = read_scene(pipeline.scene_file);
+  EXPECT_EQ(assemble(pipeline, scene, folder_ / "out").nodes.size(), pipeline.nodes.size());
+}
+
+TEST_P(PipelinesTest, ParallelGivesTheSameBytes) {
+  const ResolvedPipeline pipeline = read_pipeline({.file = file_, .sets = {}}, real_registry());
+  const auto scene = read_scene(pipeline.scene_file);
+  options_.end_frame = 40;
+  for (const int threads : {1, 4}) {
+    options_.threads = threads;
+    options_.output_folder = folder_ / std::to_string(threads);
+    options_.cache_folder = folder_ / ("cache" + std::to_string(threads));
+    EXPECT_TRUE(run_pipeline(pipeline, scene, options_).complete);
+  }
+  auto reference = comparable("1");
+  auto parallel = comparable("4");
+  // pages show how long things took
+  std::erase_if(reference, [](const auto& file) { return file.first.ends_with(".html"); });
+  std::erase_if(parallel, [](const auto& file) { return file.first.ends_with(".html"); });
+  EXPECT_EQ(parallel, reference);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, PipelinesTest, ::testing::ValuesIn(all_pipelines()), [](const auto& param) {
+      std::string name = param.param;
+      std::replace_if(
+          name.begin(), name.end(),
+          [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+      return name;
+    });
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PipelinesTest);
+
+}  // namespace
+}  // namespace plaza
