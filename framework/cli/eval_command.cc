@@ -206,8 +206,15 @@ void print_table(std::ostream& out, const json& report) {
         << " result rows are in frames without ground truth and count for nothing\n";
   }
   out << '\n';
-  for (const auto& [name, figures] : report["evaluation"].items())
-    print_section(out, name, figures);
+  const json& evaluation = report["evaluation"];
+  for (const char* name : {"detection", "tracking", "ground", "thesis"}) {
+    if (evaluation.contains(name)) print_section(out, name, evaluation[name]);
+  }
+  if (evaluation["detection"].contains("frames_with_results")) {
+    const json& part = evaluation["detection"]["frames_with_results"];
+    out << "Only " << part["frames"] << " of these frames have results. In them, ";
+    print_section(out, "detection", part);
+  }
 }
 
 void check(const EvalOptions& options) {

@@ -19,6 +19,8 @@ using row_text::Field;
 using row_text::Lines;
 
 constexpr std::size_t kMotColumns = 10;
+/// Pixels and metres beyond this are mistakes; within, areas and squared distances stay finite.
+constexpr double kFarthest = 1e9;
 
 void check_frame(std::int64_t frame, const Field& field, int line, const RowLimits& limits,
                  Faults& faults) {
@@ -119,6 +121,13 @@ std::optional<MotRow> parse_mot_row(std::span<const Field> fields, int line,
   }
   if (frame) check_frame(*frame, fields[0], line, limits, faults);
   if (!complete) return std::nullopt;
+  for (std::size_t i = 2; i < 6; ++i) {
+    if (std::abs(values[i]) <= kFarthest) continue;
+    faults.add(line, fields[i].column,
+               std::string(names[i]) + " " + row_text::quoted(fields[i].text) +
+                   " is beyond any image; at most 1e9 pixels");
+    return std::nullopt;
+  }
   for (const std::size_t i : {std::size_t{4}, std::size_t{5}}) {
     if (values[i] < 0) {
       faults.add(line, fields[i].column,
@@ -245,8 +254,8 @@ std::optional<GroundRow> parse_ground_row(std::span<const Field> fields,
   row.frame = *frame;
   row.named_metres = columns.named && columns.named_metres;
   row.position_m = columns.unit_m * Eigen::Vector2d(*x, *y);
-  if (!row.position_m.allFinite()) {
-    faults.add(line, field(columns.x).column, "position is beyond the range of double precision");
+  if (!(row.position_m.cwiseAbs().maxCoeff() <= kFarthest)) {
+    faults.add(line, field(columns.x).column, "position is beyond any place; at most 1e9 m");
     return std::nullopt;
   }
   if (fields.size() == kMotColumns && !columns.named && *x == -1 && *y == -1 &&

@@ -95,10 +95,11 @@ TEST(MotRows, TolerateWhatEditorsAndPlatformsLeave) {
 }
 
 TEST(MotRows, NumbersAreRoundedCorrectly) {
-  const auto rows = parse_mot_rows("1,1,0.1,454.92999267578125,9007199254740993,1e-320\n", "r.txt");
+  const auto rows =
+      parse_mot_rows("1,1,0.1,454.92999267578125,16777217.000000001,1e-320\n", "r.txt");
   EXPECT_EQ(rows[0].box.left, 0.1);
   EXPECT_EQ(rows[0].box.top, 454.92999267578125);
-  EXPECT_EQ(rows[0].box.width, 9007199254740992.0);
+  EXPECT_EQ(rows[0].box.width, 16777217.0);
   EXPECT_EQ(rows[0].box.height, 1e-320);
 }
 
@@ -122,6 +123,13 @@ TEST(MotRows, RefuseWhatIsNotFinite) {
               ElementsAre("rows.txt:1:7: top '-inf' is not finite; leave the row out"));
   EXPECT_THAT(faults_of("1,1,0,0,1e999,10,1\n"),
               ElementsAre("rows.txt:1:9: width '1e999' is beyond the range of double precision"));
+}
+
+TEST(MotRows, PlacesAreInTheWorld) {
+  EXPECT_THAT(faults_of("1,1,0,-2e9,10,10,1\n"),
+              ElementsAre("rows.txt:1:7: top '-2e9' is beyond any image; at most 1e9 pixels"));
+  EXPECT_THAT(ground_faults_of("1,1,1e200,0\n"),
+              ElementsAre("ground.csv:1:5: position is beyond any place; at most 1e9 m"));
 }
 
 TEST(MotRows, FramesAndIdentitiesAreWhole) {
