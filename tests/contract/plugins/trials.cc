@@ -145,7 +145,12 @@ const std::map<std::string, Maker>& table() {
        }},
       // detectors
       {"boxes", [](const fs::path&) { return defaults(); }},
-      {"hog", [](const fs::path&) { return defaults(); }},
+      {"hog",
+       [](const fs::path&) {
+         Trial t;
+         t.world = std::make_shared<World>(2, 8);  // a tenth of a second per frame
+         return std::vector<Trial>{t};
+       }},
       {"ground-fusion",
        [](const fs::path&) {
          std::vector<Trial> trials = {Trial(), trial("two views", {{"min_views", 2}})};
