@@ -17,7 +17,8 @@ Declaration<ConstantVelocity::Options> ConstantVelocity::declare() {
       .unit("m/s")
       .above(0)
       .meaning("standard deviation of an axis' velocity before anything is known of it");
-  Declaration<Options> d("constant-velocity", "Kalman filter of people who keep their velocity");
+  Declaration<Options> d("constant-velocity",
+                         "Predicts people who keep their velocity, by a Kalman filter.");
   return d.source("thesis 6.3").parameters(std::move(p));
 }
 

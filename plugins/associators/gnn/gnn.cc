@@ -84,7 +84,7 @@ Declaration<Gnn::Options> Gnn::declare() {
       .meaning(
           "people are followed wherever observations are, and put out up to here outside the area");
   p.part("motion", "motion", "constant-velocity").meaning("predicts where targets go");
-  Declaration<Options> d("gnn", "tracks by global nearest neighbour association");
+  Declaration<Options> d("gnn", "Tracks people by global nearest neighbour association.");
   return d.source("thesis 6.3, (6.1), Algorithm 2")
       .input<Observations>("people of this frame")
       .output<Tracks>("confirmed people, final after the smoothing window")

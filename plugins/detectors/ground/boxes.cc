@@ -8,7 +8,8 @@ namespace plaza {
 Declaration<BoxesDetector::Options> BoxesDetector::declare() {
   Parameters<Options> p;
   add_box_ground_parameters(p);
-  Declaration<Options> d("boxes", "ground observations from given image boxes, by calibrated feet");
+  Declaration<Options> d("boxes",
+                         "Places given image boxes on the ground by their calibrated feet.");
   return d.input<Detections>("boxes of all views")
       .output<Observations>("one observation per box, with that view's box")
       .parameters(std::move(p));

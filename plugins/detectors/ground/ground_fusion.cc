@@ -60,7 +60,8 @@ Declaration<GroundFusion::Options> GroundFusion::declare() {
   p.value("margin_m", &Options::margin_m)
       .unit("m")
       .meaning("how far outside the scene's area people are kept");
-  Declaration<Options> d("ground-fusion", "one observation per person from those of several views");
+  Declaration<Options> d("ground-fusion",
+                         "Joins the observations of several views into one per person.");
   return d.input<Observations>("observations with the box of one view each")
       .output<Observations>("one observation per person, with the boxes of all views that saw it")
       .source("Bar-Shalom and Li, Multitarget-Multisensor Tracking, 1995, 2.3 (likelihood ratios)")

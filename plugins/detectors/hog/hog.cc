@@ -52,8 +52,8 @@ Declaration<HogDetector::Options> HogDetector::declare() {
       .at_most(1)
       .meaning("width of the person in the window, as a share of the window's");
   add_box_ground_parameters(p);
-  Declaration<Options> d("hog",
-                         "people by oriented gradients and a linear SVM, on calibrated ground");
+  Declaration<Options> d(
+      "hog", "Finds people by oriented gradients and a linear SVM on calibrated ground.");
   return d.source("Dalal and Triggs 2005; OpenCV's people detector")
       .input<FrameSet>("images of all views")
       .output<Observations>("one observation per box, with that view's box")
