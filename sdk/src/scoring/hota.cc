@@ -44,6 +44,7 @@ double pairwise_sum(const double* values, std::size_t count, std::size_t stride)
 
 /// similarity / (row sum + column sum - similarity): how exclusively the two belong together.
 Eigen::MatrixXd soft_matches(const Eigen::MatrixXd& similarity) {
+  if (similarity.size() == 0) return similarity;  // has no data to point into
   const auto rows = at(similarity.rows());
   std::vector<double> row_sums(rows);
   for (Eigen::Index i = 0; i < similarity.rows(); ++i) {
