@@ -23,7 +23,7 @@ void add_help_command(CLI::App& app, CliContext& /*context*/) {
     }
     for (const CLI::App* known : app.get_subcommands({})) {
       if (known->get_name() == *topic) {
-        std::cout << known->help();
+        std::cout << known->help(app.get_name());
         return;
       }
     }
