@@ -10,13 +10,9 @@
 #include "framework/config/graph_dot.h"
 #include "framework/config/json_document.h"
 #include "framework/config/pipeline.h"
+#include "framework/scene/draw.h"
 #include "framework/scene/scene_file.h"
 #include "plaza/core/error.h"
-
-#if __has_include("framework/scene/draw.h")
-#include "framework/scene/draw.h"
-#define PLAZA_DRAWS_SCENES 1
-#endif
 
 namespace plaza {
 namespace {
@@ -59,12 +55,10 @@ void check(const CheckArguments& arguments, CliContext& context) {
               << pipeline.scene_file.string() << ", cameras " << cameras_text(*scene) << "\n\n"
               << wiring_table(pipeline);
   }
-#ifdef PLAZA_DRAWS_SCENES
   if (!arguments.draw.empty()) {
     draw_scene_grid(*scene, arguments.draw);
     std::cout << "ground grid drawn into each view: " << arguments.draw.string() << '\n';
   }
-#endif
 }
 
 }  // namespace
@@ -80,12 +74,10 @@ void add_check_command(CLI::App& app, CliContext& context) {
           "Set a value, e.g. /nodes/edges/sigma_px=2.5 (node by name or index); may be repeated")
       ->allow_extra_args(false)
       ->type_name("POINTER=VALUE");
-#ifdef PLAZA_DRAWS_SCENES
   command
       ->add_option("--draw", arguments->draw,
                    "Draw the scene's ground grid into a picture of each view, written to DIR")
       ->type_name("DIR");
-#endif
   command->footer(
       "Prints every fault with file, line, column and remedy, and ends with status 2; else who "
       "reads what\n"

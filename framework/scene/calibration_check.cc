@@ -111,9 +111,9 @@ std::vector<std::string> placement_faults(const Camera& camera, const GroundArea
   }
   if (!(height > 0)) {
     return {
-        "the camera is " + distance_text(-height) +
+        "the camera is " + distance_text(std::abs(height)) +
         " below the ground; check that the world's z axis points up, and whether the translation "
-        "is the camera's centre or maps world to camera"};
+        "is the camera's centre or maps world to camera (\"T_is\" of rtk-json)"};
   }
   if (height < kLowest_m) {
     return {"the camera is only " + distance_text(height) + " above the ground" +

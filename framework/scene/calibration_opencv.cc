@@ -44,10 +44,11 @@ class StorageReader {
       if (value->numeric && value->numbers.size() == count) return &value->numbers;
     }
     std::string list;
-    for (const std::size_t count : counts) {
-      list += (list.empty() ? "" : " or ") + std::to_string(count);
+    for (const std::size_t& count : counts) {
+      if (!list.empty()) list += &count + 1 == counts.end() ? " or " : ", ";
+      list += std::to_string(count);
     }
-    fault(value, names.front() + " must hold " + list + " numbers" +
+    fault(value, value->name + " must hold " + list + " numbers" +
                      (value->numeric ? ", not " + std::to_string(value->numbers.size()) : ""));
     return nullptr;
   }

@@ -127,13 +127,16 @@ Calibration parse_tsai_json(std::string_view text, const std::string& file, std:
   const JsonDocument document = parse_json(text, file);
   Diagnostics faults;
   Fields fields(document, "", faults);
+  bool index_reported = false;  // all arrays have the same length, and once is enough
   const auto value = [&](std::string_view key, bool for_all = false,
                          bool positive = false) -> double {
     const nlohmann::json* found = fields.need(key);
     if (found == nullptr) return 1;
     const nlohmann::json* item = found;
     if (found->is_array()) {
+      if (index >= found->size() && index_reported) return 1;
       if (index >= found->size()) {
+        index_reported = true;
         fields.fault(key, "has " + std::to_string(found->size()) + " cameras; there is no index " +
                               std::to_string(index));
         return 1;

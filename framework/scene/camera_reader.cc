@@ -35,7 +35,7 @@ class CameraReader {
     if (format) {
       name_ = name.value_or("?");
       size_ = size.value_or(Eigen::Vector2i(1, 1));
-      const bool complete = name && size;
+      complete_ = name && size;
       try {
         camera = *format == "homographies" ? homographies() : metric(*format);
       } catch (const UserError& error) {
@@ -44,7 +44,7 @@ class CameraReader {
         fields_.fault(error.what());
       }
       fields_.refuse_unknown();
-      if (!complete || faults_.size() > faults_before) return std::nullopt;
+      if (!complete_ || faults_.size() > faults_before) return std::nullopt;
     }
     return camera;
   }
@@ -60,6 +60,13 @@ class CameraReader {
     } else {
       faults_.push_back(d);
     }
+  }
+
+  /// A fault of the numbers, where they stand: in the scene, or in a file that knows no camera
+  /// names.
+  void fault_at(const FilePosition& where, const std::string& message) {
+    if (where.file == fields_.document().file) return fields_.fault(message);
+    faults_.push_back({where, "", "camera \"" + name_ + "\": " + message});
   }
 
   std::optional<TextFile> file(std::string_view key) {
@@ -182,12 +189,12 @@ class CameraReader {
     unit_ = *unit;
     const std::string rotation = rotation_fault(c->pose.rotation);
     if (!rotation.empty()) {
-      faults_.push_back({c->where, "", rotation});
+      fault_at(c->where, rotation);
       return std::nullopt;
     }
     c->pose.rotation = nearest_rotation(c->pose.rotation);
     c->pose.translation *= metres;
-    if (!size_matches(*c, calibrated)) return std::nullopt;
+    if (!complete_ || !size_matches(*c, calibrated)) return std::nullopt;
     const Eigen::Vector2i made_for = calibrated.value_or(c->image_size.value_or(size_));
     const Camera camera = std::visit(
         [&](const auto& in) {
@@ -199,7 +206,7 @@ class CameraReader {
         },
         c->intrinsics);
     principal_point_check(*c, made_for);
-    for (const std::string& fault : lens_faults(camera)) faults_.push_back({c->where, "", fault});
+    for (const std::string& fault : lens_faults(camera)) fault_at(c->where, fault);
     return camera.scaled(size_);
   }
 
@@ -229,11 +236,10 @@ class CameraReader {
     const auto [cx, cy] =
         std::visit([](const auto& in) { return std::pair(in.cx_px, in.cy_px); }, c.intrinsics);
     if (std::abs(cx / size.x() - 0.5) <= 1 && std::abs(cy / size.y() - 0.5) <= 1) return;
-    faults_.push_back({c.where, "",
-                       "the principal point (" + short_number(cx) + ", " + short_number(cy) +
-                           ") lies far outside the " + size_text(size) +
-                           " image; if the calibration was made for another size, say so with "
-                           "\"calibrated_size\""});
+    fault_at(c.where, "the principal point (" + short_number(cx) + ", " + short_number(cy) +
+                          ") lies far outside the " + size_text(size) +
+                          " image; if the calibration was made for another size, say so with "
+                          "\"calibrated_size\"");
   }
 
   /// A 3 x 3 matrix given in place, or by its name in `from`.
@@ -305,6 +311,7 @@ class CameraReader {
   Fields fields_;
   std::string name_;
   Eigen::Vector2i size_ = Eigen::Vector2i::Ones();
+  bool complete_ = false;  ///< name and size are known
   std::string unit_ = "m";
 };
 

@@ -22,7 +22,9 @@ bool append_numbers(const json& value, std::vector<double>& out) {
                      [&](const json& item) { return append_numbers(item, out); });
 }
 
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) {
+  return std::string(1, '"').append(text).append(1, '"');
+}
 
 }  // namespace
 
@@ -191,7 +193,14 @@ void Fields::refuse_unknown() {
   for (const auto& [key, value] : object_->items()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const std::string at = pointer_of(key);
-    faults_.push_back({document_.key_position(at), at, "unknown key" + did_you_mean(key, known_)});
+    std::string hint = did_you_mean(key, known_);
+    if (hint.empty()) {  // a name without its unit is often too short for that
+      const auto longer = std::find_if(known_.begin(), known_.end(), [&](const std::string& name) {
+        return name.starts_with(key + "_");
+      });
+      if (longer != known_.end()) hint = "; did you mean " + in_quotes(*longer) + "?";
+    }
+    faults_.push_back({document_.key_position(at), at, "unknown key" + hint});
   }
 }
 

@@ -27,12 +27,13 @@ Storage from_json(std::string_view text, const std::string& file) {
   if (!document.root.is_object()) throw_fault({file, 1, 1}, "must be an object");
   Storage out;
   for (const auto& [key, item] : document.root.items()) {
-    StorageValue value{document.position(std::string(1, '/').append(pointer_token(key))), {}, true};
+    StorageValue value{
+        key, document.position(std::string(1, '/').append(pointer_token(key))), {}, true};
     const bool matrix = item.is_object() && item.contains("data");
     const auto numbers = flat_numbers(matrix ? item.at("data") : item);
     value.numeric = numbers && numbers->size() <= kMaxNumbers;
     if (value.numeric) value.numbers = *numbers;
-    out.emplace(key, std::move(value));
+    out.emplace(value.name, value);
   }
   return out;
 }
@@ -50,8 +51,10 @@ Storage from_xml(std::string_view text, const std::string& file) {
   for (const pugi::xml_node& node : root.children()) {
     if (node.type() != pugi::node_element) continue;
     const std::ptrdiff_t offset = node.offset_debug();
-    StorageValue value{
-        text_position(text, offset < 0 ? 0 : static_cast<std::size_t>(offset), file), {}, true};
+    StorageValue value{node.name(),
+                       text_position(text, offset < 0 ? 0 : static_cast<std::size_t>(offset), file),
+                       {},
+                       true};
     const pugi::xml_node data = node.child("data");
     const std::string_view content = data ? data.child_value() : node.child_value();
     constexpr std::string_view kBlank = " \t\r\n";
@@ -61,7 +64,7 @@ Storage from_xml(std::string_view text, const std::string& file) {
       at = content.find_first_not_of(kBlank, end);
     }
     value.numeric = value.numeric && !value.numbers.empty();
-    out.emplace(node.name(), std::move(value));
+    out.emplace(value.name, value);
   }
   return out;
 }
@@ -135,7 +138,8 @@ Storage from_yaml(std::string_view text, const std::string& file) {
   for (auto* pair = root->data.mapping.pairs.start; pair < root->data.mapping.pairs.top; ++pair) {
     const yaml_node_t& key = *document.node(pair->key);
     const yaml_node_t* from = document.node(pair->value);
-    StorageValue value{{file, static_cast<int>(key.start_mark.line) + 1,
+    StorageValue value{std::string(YamlDocument::scalar(key)),
+                       {file, static_cast<int>(key.start_mark.line) + 1,
                         static_cast<int>(key.start_mark.column) + 1},
                        {},
                        true};
@@ -143,7 +147,7 @@ Storage from_yaml(std::string_view text, const std::string& file) {
       if (const yaml_node_t* data = document.member(*from, "data")) from = data;
     }
     document.append_all(*from, value);
-    out.emplace(YamlDocument::scalar(key), std::move(value));
+    out.emplace(value.name, value);
   }
   return out;
 }

@@ -11,6 +11,7 @@ namespace plaza {
 
 /// A value of an OpenCV storage: a number, a list of numbers or a matrix, by rows.
 struct StorageValue {
+  std::string name;
   FilePosition where;
   std::vector<double> numbers;
   bool numeric = true;  ///< false: text, or a structure with other content
