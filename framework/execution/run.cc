@@ -64,10 +64,10 @@ class Run {
  private:
   bool ended() const { return fault_ != nullptr || stopped_; }
 
-  /// Keeps the first fault; what fails after it is a note.
+  /// Keeps the first fault as the run's; what fails after it stands behind it in the summary.
   void keep_fault(const std::exception_ptr& fault) {
     if (fault_) {
-      report_.notes.push_back("also failed: " + describe(fault));
+      further_faults_ += "; also failed: " + describe(fault);
     } else {
       fault_ = fault;
     }
@@ -305,7 +305,7 @@ class Run {
     report_.complete = !ended();
     report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     if (fault_) {
-      report_.stop_reason = describe(fault_);
+      report_.stop_reason = describe(fault_) + further_faults_;
     } else if (stopped_) {
       report_.stop_reason = "interrupted after " + std::to_string(report_.frames) + " frames";
     }
@@ -351,6 +351,7 @@ class Run {
   bool streamed_ = false;
   bool stopped_ = false;
   std::exception_ptr fault_;
+  std::string further_faults_;
   std::optional<std::size_t> failed_node_;
   RunReport report_;
 };

@@ -150,12 +150,14 @@ TEST_F(FaultTest, ForeignExceptionsBecomePlazasOwn) {
   }
 }
 
-TEST_F(FaultTest, AFurtherFaultWhileEndingIsANoteNotTheReason) {
+TEST_F(FaultTest, AFurtherFaultWhileEndingStandsBehindTheReason) {
   json nodes = with_failure(1, "process", 12);
   nodes[3]["fail_in"] = "flush";
   const auto error = fault_of<UserError>(nodes);
   EXPECT_EQ(error.context().component, "detector");
-  EXPECT_THAT(summary()["reason"].get<std::string>(), StartsWith("node 'detector', frame 13"));
+  EXPECT_EQ(summary()["reason"],
+            "node 'detector', frame 13: asked to fail; ask for something else; also failed: "
+            "node 'tracks': asked to fail; ask for something else");
 }
 
 TEST_F(FaultTest, UndeclaredMetricsAreThePluginsFault) {
