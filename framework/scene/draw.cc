@@ -35,6 +35,7 @@ class ViewPicture {
   cv::Mat draw(const Camera& original) {
     draw_grid();
     draw_border();
+    draw_numbers();  // over the lines, so that no line crosses them
     draw_occluders(original.name());
     draw_bodies();
     draw_axes();
@@ -93,18 +94,6 @@ class ViewPicture {
         world_line(a, b, fifth ? canvas::kGridStrong : canvas::kGrid, fifth ? 2 : 1);
       }
     }
-    // numbers over the lines, so that no line crosses them
-    for (int axis = 0; axis < 2; ++axis) {
-      for (double v = std::ceil(low[axis] / (5 * step)) * 5 * step; v <= high[axis];
-           v += 5 * step) {
-        for (const double end : {low[1 - axis], high[1 - axis]}) {
-          Eigen::Vector3d at = Eigen::Vector3d::Zero();
-          at[axis] = v;
-          at[1 - axis] = end;
-          label((axis == 0 ? "x " : "y ") + short_number(v), at, canvas::kInk, 0.5);
-        }
-      }
-    }
   }
 
   void draw_border() {
@@ -114,18 +103,36 @@ class ViewPicture {
     for (int i = 0; i < 4; ++i) world_line(corners[i], corners[(i + 1) % 4], canvas::kArea, 3);
   }
 
+  void draw_numbers() {
+    const Eigen::Vector2d low = scene_.area.min_m, high = scene_.area.max_m;
+    const double step = grid_step_m(high - low);
+    for (int axis = 0; axis < 2; ++axis) {
+      for (double v = std::ceil(low[axis] / (5 * step)) * 5 * step; v <= high[axis];
+           v += 5 * step) {
+        for (const double end : {low[1 - axis], high[1 - axis]}) {
+          Eigen::Vector3d at = Eigen::Vector3d::Zero();
+          at[axis] = v;
+          at[1 - axis] = end;
+          label((axis == 0 ? "x " : "y ") + short_number(v + 0.0), at, canvas::kInk, 0.5);
+        }
+      }
+    }
+  }
+
   void draw_occluders(const std::string& name) {
     for (const StaticOccluder& occluder : scene_.occluders) {
       if (occluder.camera != name) continue;
       Points polygon;
-      Eigen::Vector2d right = occluder.polygon_px.front();
+      Eigen::Vector2d low(1e9, 1e9), high = -low;
       for (const Eigen::Vector2d& p : occluder.polygon_px) {
         polygon.push_back((p + Eigen::Vector2d(0.5, 0.5)) * factor_ - Eigen::Vector2d(0.5, 0.5));
-        if (polygon.back().x() > right.x()) right = polygon.back();
+        low = low.cwiseMin(polygon.back());
+        high = high.cwiseMax(polygon.back());
       }
       canvas::fill(image_, polygon, canvas::kOccluder, 0.35);
       canvas::polyline(image_, polygon, true, canvas::kOccluder, 2);
-      canvas::text(image_, occluder.name, right + Eigen::Vector2d(8, 0), canvas::kOccluder, 0.5);
+      canvas::text(image_, occluder.name, {high.x() + 8, 0.5 * (low.y() + high.y()) + 5},
+                   canvas::kOccluder, 0.5);
     }
   }
 

@@ -13,6 +13,7 @@ using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kLongSide_px = 1000;
 constexpr double kMargin_px = 70;
+constexpr double kNameSize = 0.55;
 
 class Plan {
  public:
@@ -90,7 +91,7 @@ class Plan {
         if (!fifth) continue;
         const Eigen::Vector2d outside =
             axis == 0 ? Eigen::Vector2d(0, 14) : Eigen::Vector2d(-20, 0);
-        canvas::centred_text(image_, short_number(v), at(a) + outside, canvas::kInk, 0.45);
+        canvas::centred_text(image_, short_number(v + 0.0), at(a) + outside, canvas::kInk, 0.45);
       }
     }
   }
@@ -120,11 +121,14 @@ class Plan {
                cv::FILLED, cv::LINE_AA);
     const std::string words =
         camera.name() + ", " + short_number(std::round(camera.centre().z() * 100) / 100) + " m";
-    // towards the picture's middle, so that names stay inside it
-    const bool right_half = p.x() > image_.cols / 2.0;
-    const Eigen::Vector2d offset(
-        right_half ? -12.0 - 9.5 * static_cast<double>(words.size()) : 12.0, p.y() < 60 ? 24 : -12);
-    canvas::text(image_, words, p + offset, colour, 0.55);
+    // behind the camera, where its own view does not reach, but inside the picture
+    int baseline = 0;
+    const int width =
+        cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, kNameSize, 1, &baseline).width;
+    Eigen::Vector2d corner = p - 18 * ahead + Eigen::Vector2d(ahead.x() > 0 ? -width : 0, 6);
+    corner.x() = std::clamp(corner.x(), 6.0, std::max(6.0, image_.cols - 6.0 - width));
+    corner.y() = std::clamp(corner.y(), 50.0, image_.rows - 8.0);
+    canvas::text(image_, words, corner, colour, kNameSize);
   }
 
   const Scene& scene_;
