@@ -88,13 +88,14 @@ class CameraReader {
       return std::nullopt;
     }
     if (std::filesystem::file_size(path, error) > kMaxCalibrationBytes) {
-      fields_.fault(key, "\"" + path.string() + "\" is larger than 1 MiB: not a calibration file");
+      fields_.fault(key,
+                    in_quotes(path.string()) + " is larger than 1 MiB: not a calibration file");
       return std::nullopt;
     }
     std::ifstream in(path, std::ios::binary);
     TextFile out{{std::istreambuf_iterator<char>(in), {}}, path.string()};
     if (!in) {
-      fields_.fault(key, "\"" + path.string() + "\" cannot be read");
+      fields_.fault(key, in_quotes(path.string()) + " cannot be read");
       return std::nullopt;
     }
     return out;

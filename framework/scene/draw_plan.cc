@@ -12,7 +12,7 @@ namespace {
 using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kLongSide_px = 1000;
-constexpr double kMargin_px = 70;
+constexpr double kMargin_px = 110;
 constexpr double kNameSize = 0.55;
 
 class Plan {

@@ -22,16 +22,16 @@ bool append_numbers(const json& value, std::vector<double>& out) {
                      [&](const json& item) { return append_numbers(item, out); });
 }
 
-std::string in_quotes(std::string_view text) {
-  return std::string(1, '"').append(text).append(1, '"');
-}
-
 }  // namespace
 
 std::optional<std::vector<double>> flat_numbers(const json& value) {
   std::vector<double> out;
   if (!append_numbers(value, out)) return std::nullopt;
   return out;
+}
+
+std::string in_quotes(std::string_view text) {
+  return std::string(1, '"').append(text).append(1, '"');
 }
 
 std::string short_number(double value) {
@@ -190,7 +190,8 @@ void Fields::fault(std::string_view key, std::string message) {
 
 void Fields::refuse_unknown() {
   if (object_ == nullptr) return;
-  for (const auto& [key, value] : object_->items()) {
+  for (const auto& item : object_->items()) {
+    const std::string& key = item.key();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const std::string at = pointer_of(key);
     std::string hint = did_you_mean(key, known_);

@@ -61,6 +61,8 @@ class Fields {
 /// All numbers in nested arrays, in reading order; nothing when there is anything else.
 std::optional<std::vector<double>> flat_numbers(const nlohmann::json& value);
 
+std::string in_quotes(std::string_view text);
+
 /// "3.5", "-0.25", "1e-05": a number in a message, six digits.
 std::string short_number(double value);
 
