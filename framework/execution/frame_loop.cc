@@ -106,8 +106,8 @@ class ParallelLoop {
     return tbb::make_filter<FrameState*, FrameState*>(
         tbb::filter_mode::serial_in_order,
         [this, &stage, dead = std::make_shared<bool>(false)](FrameState* state) {
-          *dead = *dead || state->fault;
           if (!*dead) pass(stage, *state);
+          *dead = *dead || state->fault;  // also what failed just now: the next frame must not pass
           return state;
         });
   }
