@@ -77,7 +77,9 @@ std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& x_world) c
   if (!(x.z() > kMinDepth_m)) return std::nullopt;
   const auto distorted = m.lens.distort(x.head<2>() / x.z());
   if (!distorted) return std::nullopt;
-  return m.pixel_from_lens * *distorted + m.principal_point;
+  const Eigen::Vector2d pixel = m.pixel_from_lens * *distorted + m.principal_point;
+  if (!pixel.allFinite()) return std::nullopt;
+  return pixel;
 }
 
 std::optional<Camera::Model::Projection> Camera::Model::project_with_jacobian(
@@ -101,8 +103,8 @@ std::optional<Ray> Camera::ray(const Eigen::Vector2d& pixel) const {
   const Eigen::Matrix2d& k = m.pixel_from_lens;
   const double y = q.y() / k(1, 1);
   const auto ideal = m.lens.undistort({(q.x() - k(0, 1) * y) / k(0, 0), y});
-  if (!ideal) return std::nullopt;
-  return Ray{m.centre, (m.pose.rotation.transpose() * ideal->homogeneous()).normalized()};
+  if (!ideal || !ideal->allFinite()) return std::nullopt;  // extreme coefficients overflow
+  return Ray{m.centre, (m.pose.rotation.transpose() * ideal->homogeneous()).stableNormalized()};
 }
 
 std::optional<Eigen::Vector2d> Camera::to_plane(const Eigen::Vector2d& pixel, double z_m) const {
