@@ -98,7 +98,7 @@ void run(const RunArguments& arguments, CliContext& context) {
   if (options.progress == ProgressStyle::kJsonLines) {
     print_report_json(std::cout, report, options.output_folder);
   } else if (options.progress != ProgressStyle::kQuiet) {
-    print_report(std::cout, report, options.output_folder);
+    print_report(std::cout, report, pipeline, options.output_folder);
   }
   if (!report.complete) {
     std::cerr << "plaza: " << report.stop_reason << "; what is in "

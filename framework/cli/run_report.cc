@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/results/number_text.h"
@@ -19,7 +21,20 @@ std::string figure_text(const nlohmann::json& value) {
   return "";
 }
 
-void print_evaluation(std::ostream& out, const std::string& title, const Evaluation& evaluation) {
+using Details = std::set<std::pair<std::string, std::string>>;  // (section, name)
+
+Details details_of(const ResolvedPipeline& pipeline) {
+  Details details;
+  for (const ResolvedNode& node : pipeline.nodes) {
+    for (const MetricSpec& metric : node.entry->declaration.metrics) {
+      if (metric.detail) details.emplace(metric.section, metric.name);
+    }
+  }
+  return details;
+}
+
+void print_evaluation(std::ostream& out, const std::string& title, const Evaluation& evaluation,
+                      const Details& details) {
   std::size_t width = 0;
   for (const auto& [section, values] : evaluation) width = std::max(width, section.size());
   if (!evaluation.empty() && !title.empty()) out << title << '\n';
@@ -28,7 +43,7 @@ void print_evaluation(std::ostream& out, const std::string& title, const Evaluat
     const std::string indent(width + 2, ' ');
     for (const auto& [key, value] : values.items()) {
       const std::string text = figure_text(value);
-      if (text.empty()) continue;
+      if (text.empty() || details.contains({section, key})) continue;
       const std::string item = "  " + key + " " + text;
       if (line.size() + item.size() > 100) {
         out << line << '\n';
@@ -42,13 +57,15 @@ void print_evaluation(std::ostream& out, const std::string& title, const Evaluat
 
 }  // namespace
 
-void print_report(std::ostream& out, const RunReport& report, const std::filesystem::path& folder) {
+void print_report(std::ostream& out, const RunReport& report, const ResolvedPipeline& pipeline,
+                  const std::filesystem::path& folder) {
   const double rate = report.seconds > 0 ? static_cast<double>(report.frames) / report.seconds : 0;
   out << report.frames << " frames in " << fixed_text(report.seconds, 1) << " s ("
       << fixed_text(rate, 1) << " frames/s)" << (report.complete ? "" : ", not complete") << '\n';
-  print_evaluation(out, "", report.evaluation);
+  const Details details = details_of(pipeline);
+  print_evaluation(out, "", report.evaluation, details);
   for (const auto& [branch, evaluation] : report.branches) {
-    print_evaluation(out, "branch " + branch, evaluation);
+    print_evaluation(out, "branch " + branch, evaluation, details);
   }
   std::size_t width = 0;
   for (const Artifact& a : report.artifacts) width = std::max(width, a.file.string().size());

@@ -1,5 +1,8 @@
 // What the figures of plaza/scoring/sections.h mean, for evaluators' declarations.
+#include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <string_view>
 #include <utility>
 
 #include "plaza/scoring/sections.h"
@@ -14,13 +17,22 @@ struct Figure {
   const char* meaning;
 };
 
+/// The figures that papers print; the others explain them.
+bool is_detail(std::string_view name) {
+  constexpr std::array kHeadline = {"MODA",         "MODP", "precision", "recall", "MOTA", "MOTP",
+                                    "mean_error_m", "FN",   "FP",        "IDS",    "GT",   "MT",
+                                    "PT",           "ML",   "FM",        "IDF1",   "HOTA"};
+  return std::find(kHeadline.begin(), kHeadline.end(), name) == kHeadline.end();
+}
+
 void add(std::vector<MetricSpec>& out, const char* section, std::initializer_list<Figure> figures) {
   for (const Figure& f : figures) {
     out.push_back({.section = section,
                    .name = f.name,
                    .unit = f.unit,
                    .better = f.better,
-                   .meaning = f.meaning});
+                   .meaning = f.meaning,
+                   .detail = is_detail(f.name)});
   }
 }
 

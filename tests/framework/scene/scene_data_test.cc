@@ -44,6 +44,27 @@ TEST_F(SceneDataTest, EveryShippedSceneIsAccepted) {
   EXPECT_GE(scenes, 4);
 }
 
+TEST(Scenes, TheDemoNeedsNoDataFolder) {
+  // nothing of the scene may be read from there; the test below needs it for comparison
+  const auto before = std::getenv("PLAZA_DATA");
+  const std::string saved = before != nullptr ? before : "";
+  setenv("PLAZA_DATA", "/nonexistent", 1);
+  EXPECT_NO_THROW(read_scene(PLAZA_SOURCE_DIR "/pipelines/scenes/pets-view1.json"));
+  before != nullptr ? setenv("PLAZA_DATA", saved.c_str(), 1) : unsetenv("PLAZA_DATA");
+}
+
+TEST_F(SceneDataTest, TheInlineNumbersOfViewOneAreTheOfficialOnes) {
+  const auto own = read("pets-view1.json");
+  const auto official = read("pets-seven-views.json");
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(-14, -14, 0), Eigen::Vector3d(5, 1.7, 0), Eigen::Vector3d(-4, -7, 1.75)}) {
+    const auto a = own->cameras[0].project(point);
+    const auto b = official->cameras[0].project(point);
+    ASSERT_TRUE(a && b);
+    EXPECT_LT((*a - *b).norm(), 1e-6);
+  }
+}
+
 TEST_F(SceneDataTest, PetsHasSevenViewsOfTheSamePlace) {
   const auto scene = read("pets-seven-views.json");
   ASSERT_EQ(scene->cameras.size(), 7u);

@@ -38,6 +38,7 @@ struct MetricSpec {
   std::string unit;     ///< "" for ratios and counts, "m", "deg"
   Better better = Better::kHigher;
   std::string meaning;
+  bool detail = false;  ///< true: in files and studies, but not in the table at a run's end
 };
 
 /// What the world may know of a component without making one.
