@@ -10,9 +10,12 @@ namespace {
 /// Settings (named as parameters are) and words may stand among the metrics; other numbers must be
 /// declared, or no study and no report would know which way is better.
 void check_declared(const ComponentDeclaration& declaration, const Evaluation& evaluation) {
-  for (const auto& [section, values] : evaluation) {
-    for (const auto& [key, value] : values.items()) {
+  for (const auto& [section_name, values] : evaluation) {
+    for (const auto& [name, value] : values.items()) {
       if (!value.is_number()) continue;
+      const std::string& section =
+          section_name;  // lambdas of C++20 in clang 14 capture no bindings
+      const std::string& key = name;
       const bool metric =
           std::any_of(declaration.metrics.begin(), declaration.metrics.end(),
                       [&](const MetricSpec& m) { return m.section == section && m.name == key; });

@@ -79,9 +79,9 @@ void Registry::add(ComponentEntry entry) {
 
 void Registry::add_all(std::vector<ComponentEntry> entries) {
   Registry together;  // so that a name that one library uses twice is found, too
-  for (const ComponentEntry& entry : entries) {
+  for (ComponentEntry& entry : entries) {
     check_addable(entry);
-    together.add(entry);
+    together.add(std::move(entry));
   }
   entries_.merge(together.entries_);
 }

@@ -83,8 +83,9 @@ Layout make_layout(const std::vector<cv::Size>& view_sizes, double plan_aspect, 
   layout.canvas = {width, even(m.header + height + m.gap)};
   layout.header = {0, 0, width, m.header};
   for (std::size_t i = 0; i < view_sizes.size(); ++i) {
+    const std::size_t row_index = i / static_cast<std::size_t>(best.columns);
     const auto column = static_cast<double>(i % static_cast<std::size_t>(best.columns));
-    const auto row = static_cast<double>(i / static_cast<std::size_t>(best.columns));
+    const auto row = static_cast<double>(row_index);
     const double left = m.gap + column * (best.cell_width + m.gap);
     const double top = m.header + row * (best.cell_height + m.gap);
     const cv::Size2d size(view_sizes[i]);
