@@ -99,7 +99,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& errors)
   app.set_version_flag("--version", "plaza " PLAZA_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(0, 1);  // at most one: "plaza help run" does not run
-  app.fallthrough();  // options of the program may follow the command
+  app.fallthrough();             // options of the program may follow the command
   app.add_option("--plugin-path", context.plugin_paths,
                  "Folder to look for plugins in first; may be given several times")
       ->allow_extra_args(false)

@@ -14,15 +14,15 @@
 
 namespace plaza {
 
-/// Everything about a build that must be equal on both sides of the plugin boundary. Plain data of fixed
-/// layout: it is read before anything else of the library is trusted.
+/// Everything about a build that must be equal on both sides of the plugin boundary. Plain data of
+/// fixed layout: it is read before anything else of the library is trusted.
 struct AbiTag {
-  std::uint32_t sdk_version;   ///< major * 10000 + minor * 100 + patch
-  std::int64_t cpp_standard;   ///< __cplusplus
-  std::uint32_t compiler_abi;  ///< __GXX_ABI_VERSION
-  std::uint32_t cxx11_strings; ///< _GLIBCXX_USE_CXX11_ABI
-  std::uint32_t eigen_version; ///< world * 10000 + major * 100 + minor
-  std::uint32_t eigen_align;   ///< EIGEN_MAX_ALIGN_BYTES
+  std::uint32_t sdk_version;    ///< major * 10000 + minor * 100 + patch
+  std::int64_t cpp_standard;    ///< __cplusplus
+  std::uint32_t compiler_abi;   ///< __GXX_ABI_VERSION
+  std::uint32_t cxx11_strings;  ///< _GLIBCXX_USE_CXX11_ABI
+  std::uint32_t eigen_version;  ///< world * 10000 + major * 100 + minor
+  std::uint32_t eigen_align;    ///< EIGEN_MAX_ALIGN_BYTES
   std::uint32_t opencv_version;
   std::uint32_t json_version;
   std::uint32_t json_diagnostics;
@@ -34,9 +34,9 @@ struct AbiTag {
 };
 
 struct PluginDescriptor {
-  char magic[8];            ///< "PLAZA\0\0\0"
-  std::uint32_t layout;     ///< of this struct and of AbiTag; kPluginLayout
-  std::uint32_t size;       ///< sizeof(PluginDescriptor)
+  char magic[8];         ///< "PLAZA\0\0\0"
+  std::uint32_t layout;  ///< of this struct and of AbiTag; kPluginLayout
+  std::uint32_t size;    ///< sizeof(PluginDescriptor)
   AbiTag abi;
   void (*register_components)(void* registrar);  ///< a ComponentRegistrar*; may throw
 };
@@ -51,7 +51,8 @@ constexpr AbiTag current_abi() {
       .cpp_standard = __cplusplus,
       .compiler_abi = __GXX_ABI_VERSION,
       .cxx11_strings = _GLIBCXX_USE_CXX11_ABI,
-      .eigen_version = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
+      .eigen_version =
+          EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
       .eigen_align = EIGEN_MAX_ALIGN_BYTES,
       .opencv_version = CV_VERSION_MAJOR * 10000 + CV_VERSION_MINOR * 100 + CV_VERSION_REVISION,
       .json_version = NLOHMANN_JSON_VERSION_MAJOR * 10000 + NLOHMANN_JSON_VERSION_MINOR * 100 +

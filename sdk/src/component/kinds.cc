@@ -1,5 +1,5 @@
-// The checks around every kind's virtual functions: a plugin that breaks an invariant is named at once,
-// not where its result makes trouble later.
+// The checks around every kind's virtual functions: a plugin that breaks an invariant is named at
+// once, not where its result makes trouble later.
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
@@ -16,7 +16,8 @@ std::string at(const char* what, std::size_t index) {
 }
 
 void check_observation(const Observation& o, std::size_t index) {
-  if (!o.position_m.allFinite()) throw InternalError(at("observation", index) + "position is not finite");
+  if (!o.position_m.allFinite())
+    throw InternalError(at("observation", index) + "position is not finite");
   const Eigen::Matrix2d& c = o.covariance_m2;
   const bool positive_definite = c.allFinite() && c(0, 0) > 0 && c.determinant() > 0 &&
                                  std::abs(c(0, 1) - c(1, 0)) <= 1e-9 * c.cwiseAbs().maxCoeff();
@@ -73,7 +74,8 @@ Silhouette ShapeModel::silhouette(const Pose& pose, const Camera& camera) const 
 }
 
 AppearanceModel::~AppearanceModel() = default;
-std::vector<SurfacePoint> AppearanceModel::visible_points(const Pose& pose, const Camera& camera) const {
+std::vector<SurfacePoint> AppearanceModel::visible_points(const Pose& pose,
+                                                          const Camera& camera) const {
   return do_visible_points(pose, camera);
 }
 
@@ -109,7 +111,8 @@ Modality::Prepared Modality::prepare(const cv::Mat& image, std::size_t camera) c
   if (!prepared.evidence) throw InternalError("prepare() returned no evidence");
   return prepared;
 }
-std::unique_ptr<TemplateBatch> Modality::sample(const ShapeModel& model, std::span<const Pose> poses,
+std::unique_ptr<TemplateBatch> Modality::sample(const ShapeModel& model,
+                                                std::span<const Pose> poses,
                                                 std::size_t camera) const {
   if (camera >= scene_->cameras.size()) throw std::out_of_range("camera index");
   auto batch = do_sample(model, poses, camera);
@@ -156,7 +159,8 @@ void Modality::do_process(NodeIo& io) {
 Detector::~Detector() = default;
 Observations Detector::detect(const NodeIo& io) const {
   Observations observations = do_detect(io);
-  for (std::size_t i = 0; i < observations.items.size(); ++i) check_observation(observations.items[i], i);
+  for (std::size_t i = 0; i < observations.items.size(); ++i)
+    check_observation(observations.items[i], i);
   return observations;
 }
 void Detector::do_process(NodeIo& io) { io.out(0, std::make_shared<Observations>(detect(io))); }
@@ -171,7 +175,8 @@ Observations Describer::describe(const NodeIo& io) {
   }
   for (std::size_t i = 0; i < after.items.size(); ++i) {
     if (after.items[i].position_m != before.items[i].position_m) {
-      throw InternalError(at("observation", i) + "a describer must not move or reorder observations");
+      throw InternalError(at("observation", i) +
+                          "a describer must not move or reorder observations");
     }
     check_observation(after.items[i], i);
   }
@@ -199,12 +204,15 @@ void Associator::check(const AssociatorOutput& output) const {
     if (p.frame < 0 || p.frame > last_frame_) {
       throw InternalError(at("track point", i) + "speaks of a frame that was not pushed");
     }
-    if (!p.position_m.allFinite()) throw InternalError(at("track point", i) + "position is not finite");
-    if (!(p.score >= 0 && p.score <= 1)) throw InternalError(at("track point", i) + "score not in [0, 1]");
+    if (!p.position_m.allFinite())
+      throw InternalError(at("track point", i) + "position is not finite");
+    if (!(p.score >= 0 && p.score <= 1))
+      throw InternalError(at("track point", i) + "score not in [0, 1]");
   }
 }
 AssociatorOutput Associator::push(const AssociatorInput& input) {
-  if (input.frame <= last_frame_) throw std::invalid_argument("frames must be pushed in rising order");
+  if (input.frame <= last_frame_)
+    throw std::invalid_argument("frames must be pushed in rising order");
   last_frame_ = input.frame;
   AssociatorOutput output = do_push(input);
   check(output);
@@ -214,7 +222,8 @@ AssociatorOutput Associator::flush_tracks() {
   AssociatorOutput output = do_flush_tracks();
   check(output);
   for (std::size_t i = 0; i < output.points.size(); ++i) {
-    if (!output.points[i].final) throw InternalError(at("track point", i) + "still open after flush");
+    if (!output.points[i].final)
+      throw InternalError(at("track point", i) + "still open after flush");
   }
   return output;
 }
@@ -243,8 +252,8 @@ void Associator::do_flush(NodeIo& io) {
   // a global associator below another one still gets what that one held back
   for (std::size_t i = 0; i < io.input_count(); ++i) {
     if (io.has(i) && io.port(i) == Tracklets::kPort && !io.in<Tracklets>(i).items.empty()) {
-      const AssociatorInput input{.frame = io.frame(), .time_ns = io.time_ns(),
-                                  .tracklets = &io.in<Tracklets>(i)};
+      const AssociatorInput input{
+          .frame = io.frame(), .time_ns = io.time_ns(), .tracklets = &io.in<Tracklets>(i)};
       last_frame_ = io.frame();
       AssociatorOutput late = do_push(input);
       last_frame_ = io.frame() - 1;
@@ -282,7 +291,8 @@ void Sink::do_flush(NodeIo& io) { do_write_rest(io); }
 
 Renderer::~Renderer() = default;
 void Renderer::begin(std::int64_t begin_frame, std::int64_t end_frame) {
-  if (begin_frame < 0 || end_frame < begin_frame) throw std::invalid_argument("empty or negative range");
+  if (begin_frame < 0 || end_frame < begin_frame)
+    throw std::invalid_argument("empty or negative range");
   do_begin(begin_frame, end_frame);
 }
 void Renderer::do_process(NodeIo& /*io*/) {}

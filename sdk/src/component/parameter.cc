@@ -6,17 +6,28 @@ namespace plaza {
 
 std::string_view to_string(ParameterType type) {
   switch (type) {
-    case ParameterType::kBoolean: return "boolean";
-    case ParameterType::kInteger: return "integer";
-    case ParameterType::kReal: return "real";
-    case ParameterType::kText: return "text";
-    case ParameterType::kChoice: return "choice";
-    case ParameterType::kPath: return "path";
-    case ParameterType::kList: return "list";
-    case ParameterType::kMap: return "map";
-    case ParameterType::kPart: return "part";
-    case ParameterType::kPartList: return "parts";
-    case ParameterType::kInputList: return "inputs";
+    case ParameterType::kBoolean:
+      return "boolean";
+    case ParameterType::kInteger:
+      return "integer";
+    case ParameterType::kReal:
+      return "real";
+    case ParameterType::kText:
+      return "text";
+    case ParameterType::kChoice:
+      return "choice";
+    case ParameterType::kPath:
+      return "path";
+    case ParameterType::kList:
+      return "list";
+    case ParameterType::kMap:
+      return "map";
+    case ParameterType::kPart:
+      return "part";
+    case ParameterType::kPartList:
+      return "parts";
+    case ParameterType::kInputList:
+      return "inputs";
   }
   return "?";
 }
@@ -73,7 +84,8 @@ ParameterBuilder& ParameterBuilder::below(double limit) {
   limits().maximum_exclusive = true;
   return *this;
 }
-ParameterBuilder& ParameterBuilder::items(std::size_t at_least, std::optional<std::size_t> at_most) {
+ParameterBuilder& ParameterBuilder::items(std::size_t at_least,
+                                          std::optional<std::size_t> at_most) {
   spec_->min_items = at_least;
   spec_->max_items = at_most;
   return *this;

@@ -14,7 +14,8 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
     return;
   }
   std::vector<std::exception_ptr> errors(count);
-  // isolate: a thread that waits here must not pick up another frame's node, which might wait in turn
+  // isolate: a thread that waits here must not pick up another frame's node, which might wait in
+  // turn
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       try {

@@ -168,7 +168,8 @@ TEST(CameraTest, FoldOfEveryPolynomialIsWhereItsSlopeFirstVanishes) {
 
 TEST(CameraTest, NothingInsteadOfInfinityForAbsurdNumbers) {
   const CameraFromWorld pose = look_at({8, 1, 4}, {0, 0, 1});
-  const Camera strong = Camera::tsai("t", {768, 576}, {5.5, 5e-3, 5e-8, 4.5e110, 1, 324, 282}, pose);
+  const Camera strong =
+      Camera::tsai("t", {768, 576}, {5.5, 5e-3, 5e-8, 4.5e110, 1, 324, 282}, pose);
   EXPECT_FALSE(strong.ray({0, 0}));
   EXPECT_FALSE(strong.to_plane({0, 500}));
   const Camera huge = Camera::pinhole("p", {640, 480}, {1e308, 1e308, 0, 0, {}}, pose);

@@ -17,8 +17,8 @@ struct AffinityEnd {
 class PLAZA_API AffinityTerm : public Component {
  public:
   ~AffinityTerm() override;
-  /// log A of links from `from` to each of `to`, A in (0, 1]; 0 where the cue is missing on either side.
-  /// `log_affinity.size()` equals `to.size()`; times in `to` are later than `from`'s.
+  /// log A of links from `from` to each of `to`, A in (0, 1]; 0 where the cue is missing on either
+  /// side. `log_affinity.size()` equals `to.size()`; times in `to` are later than `from`'s.
   void evaluate(const AffinityEnd& from, std::span<const AffinityEnd> to,
                 std::span<double> log_affinity) const;
 

@@ -23,9 +23,10 @@ struct AssociatorOutput {
 
 /// Says who is who over time. push() in frame order, then flush() once.
 ///
-/// Written invariants: ids > 0; a point's frame has been pushed; each (id, frame) becomes final at most
-/// once and is not spoken of afterwards; after flush() nothing is open that is part of the answer.
-/// Node ports: inputs as declared (Observations or Tracklets); out 0 Tracks, out 1 Tracklets if declared.
+/// Written invariants: ids > 0; a point's frame has been pushed; each (id, frame) becomes final at
+/// most once and is not spoken of afterwards; after flush() nothing is open that is part of the
+/// answer. Node ports: inputs as declared (Observations or Tracklets); out 0 Tracks, out 1
+/// Tracklets if declared.
 class PLAZA_API Associator : public Node {
  public:
   ~Associator() override;

@@ -21,8 +21,8 @@ struct NamedPart {
   std::shared_ptr<Component> component;
 };
 
-/// One entry of an input list: the slot to pass to NodeIo::in(), the node that fills it (a detector calls
-/// its modality's sample and match), and the entry's own fields.
+/// One entry of an input list: the slot to pass to NodeIo::in(), the node that fills it (a detector
+/// calls its modality's sample and match), and the entry's own fields.
 struct InputReference {
   std::size_t slot = 0;
   std::string from;
@@ -36,7 +36,8 @@ class PLAZA_API BuildContext {
   std::string name;                    ///< of this node or part, unique in the pipeline
   std::shared_ptr<const Scene> scene;  ///< never null
   std::uint64_t seed = 0;              ///< from the pipeline's seed and this component's name
-  std::filesystem::path output_folder;  ///< where sinks and renderers write; exists when a run starts
+  std::filesystem::path
+      output_folder;  ///< where sinks and renderers write; exists when a run starts
   std::map<std::string, std::vector<NamedPart>> part_lists;  ///< by parameter; kPart has one entry
   std::map<std::string, std::vector<InputReference>> input_lists;
 
@@ -59,7 +60,9 @@ class PLAZA_API BuildContext {
   template <class T>
   static std::shared_ptr<T> cast(const NamedPart& p, const std::string& parameter) {
     auto typed = std::dynamic_pointer_cast<T>(p.component);
-    if (!typed) throw InternalError("part '" + p.name + "' of parameter '" + parameter + "' has another kind");
+    if (!typed)
+      throw InternalError("part '" + p.name + "' of parameter '" + parameter +
+                          "' has another kind");
     return typed;
   }
 };

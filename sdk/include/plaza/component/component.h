@@ -17,9 +17,9 @@ class PLAZA_API Component {
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
-  /// Everything that would keep this component from working: missing or malformed files, cameras that
-  /// the scene lacks. Called once, before anything is computed. A diagnostic's `pointer` is relative to
-  /// the component ("/files/view1"); the kernel adds the place in the pipeline.
+  /// Everything that would keep this component from working: missing or malformed files, cameras
+  /// that the scene lacks. Called once, before anything is computed. A diagnostic's `pointer` is
+  /// relative to the component ("/files/view1"); the kernel adds the place in the pipeline.
   Diagnostics check() const { return do_check(); }
 
  protected:

@@ -61,19 +61,32 @@ PLAZA_API const std::vector<std::string>& component_kinds();
 /// The kind of a component class, from its base.
 template <class C>
 constexpr std::string_view kind_of() {
-  if constexpr (std::is_base_of_v<Source, C>) return "source";
-  else if constexpr (std::is_base_of_v<Modality, C>) return "modality";
-  else if constexpr (std::is_base_of_v<ShapeModel, C>) return "shape";
-  else if constexpr (std::is_base_of_v<AppearanceModel, C>) return "appearance";
-  else if constexpr (std::is_base_of_v<MotionModel, C>) return "motion";
-  else if constexpr (std::is_base_of_v<Detector, C>) return "detector";
-  else if constexpr (std::is_base_of_v<Describer, C>) return "describer";
-  else if constexpr (std::is_base_of_v<AffinityTerm, C>) return "affinity";
-  else if constexpr (std::is_base_of_v<Associator, C>) return "associator";
-  else if constexpr (std::is_base_of_v<Evaluator, C>) return "evaluator";
-  else if constexpr (std::is_base_of_v<Renderer, C>) return "renderer";
-  else if constexpr (std::is_base_of_v<Sink, C>) return "sink";
-  else static_assert(!sizeof(C), "a component derives from one of the kinds in plaza/component/");
+  if constexpr (std::is_base_of_v<Source, C>)
+    return "source";
+  else if constexpr (std::is_base_of_v<Modality, C>)
+    return "modality";
+  else if constexpr (std::is_base_of_v<ShapeModel, C>)
+    return "shape";
+  else if constexpr (std::is_base_of_v<AppearanceModel, C>)
+    return "appearance";
+  else if constexpr (std::is_base_of_v<MotionModel, C>)
+    return "motion";
+  else if constexpr (std::is_base_of_v<Detector, C>)
+    return "detector";
+  else if constexpr (std::is_base_of_v<Describer, C>)
+    return "describer";
+  else if constexpr (std::is_base_of_v<AffinityTerm, C>)
+    return "affinity";
+  else if constexpr (std::is_base_of_v<Associator, C>)
+    return "associator";
+  else if constexpr (std::is_base_of_v<Evaluator, C>)
+    return "evaluator";
+  else if constexpr (std::is_base_of_v<Renderer, C>)
+    return "renderer";
+  else if constexpr (std::is_base_of_v<Sink, C>)
+    return "sink";
+  else
+    static_assert(!sizeof(C), "a component derives from one of the kinds in plaza/component/");
 }
 
 /// Kinds that see frames in order whatever the component says.
@@ -87,7 +100,10 @@ class Declaration {
     info_.name = std::move(name);
     info_.summary = std::move(summary);
   }
-  Declaration& source(std::string text) { info_.source = std::move(text); return *this; }
+  Declaration& source(std::string text) {
+    info_.source = std::move(text);
+    return *this;
+  }
   template <class T>
   Declaration& input(std::string meaning) {
     info_.inputs.push_back({std::string(T::kPort), true, std::move(meaning)});
@@ -103,10 +119,19 @@ class Declaration {
     info_.outputs.push_back({std::string(T::kPort), true, std::move(meaning)});
     return *this;
   }
-  Declaration& metric(MetricSpec metric) { info_.metrics.push_back(std::move(metric)); return *this; }
+  Declaration& metric(MetricSpec metric) {
+    info_.metrics.push_back(std::move(metric));
+    return *this;
+  }
   /// Frames must come in order (sources, associators, evaluators, sinks and renderers always do).
-  Declaration& memory() { info_.memory = true; return *this; }
-  Declaration& parameters(Parameters<Options> p) { parameters_ = std::move(p); return *this; }
+  Declaration& memory() {
+    info_.memory = true;
+    return *this;
+  }
+  Declaration& parameters(Parameters<Options> p) {
+    parameters_ = std::move(p);
+    return *this;
+  }
 
   const Parameters<Options>& parameters() const { return parameters_; }
   ComponentDeclaration info(std::string_view kind) const {
@@ -131,8 +156,8 @@ class PLAZA_API ComponentRegistrar {
  public:
   virtual ~ComponentRegistrar();
 
-  /// Registers component class C with `struct C::Options`, `static Declaration<Options> C::declare()` and
-  /// the constructor `C(const Options&, const BuildContext&)`.
+  /// Registers component class C with `struct C::Options`, `static Declaration<Options>
+  /// C::declare()` and the constructor `C(const Options&, const BuildContext&)`.
   template <class C>
   void add() {
     const auto declaration = C::declare();

@@ -5,13 +5,13 @@
 
 namespace plaza {
 
-/// Finds people in one frame: from images, evidence, image detections, or other observations (fusion).
-/// No memory between frames. Node ports: inputs as declared; out 0 Observations.
+/// Finds people in one frame: from images, evidence, image detections, or other observations
+/// (fusion). No memory between frames. Node ports: inputs as declared; out 0 Observations.
 class PLAZA_API Detector : public Node {
  public:
   ~Detector() override;
-  /// Checks the result: finite positions, positive definite covariances, probabilities in [0, 1], boxes
-  /// by rising camera; a violation is an InternalError naming the observation.
+  /// Checks the result: finite positions, positive definite covariances, probabilities in [0, 1],
+  /// boxes by rising camera; a violation is an InternalError naming the observation.
   Observations detect(const NodeIo& io) const;
 
  protected:

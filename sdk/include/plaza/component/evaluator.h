@@ -8,8 +8,8 @@
 
 namespace plaza {
 
-/// Sections of summary.json's "evaluation": section name -> object of settings and metrics. What was not
-/// evaluated is absent, never zero.
+/// Sections of summary.json's "evaluation": section name -> object of settings and metrics. What
+/// was not evaluated is absent, never zero.
 using Evaluation = std::map<std::string, nlohmann::json>;
 
 /// Compares results with ground truth. Sees every frame in order, then gives its figures once.

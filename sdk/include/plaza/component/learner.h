@@ -10,16 +10,17 @@
 
 namespace plaza {
 
-/// Which frames a node wants to see before the stream starts. All learners share one pass over the source.
+/// Which frames a node wants to see before the stream starts. All learners share one pass over the
+/// source.
 struct LearningPlan {
-  bool people_free_only = false;        ///< only frames that the source marks as people-free
-  std::optional<std::int64_t> first;    ///< only frames [0, first)
-  std::int64_t every = 1;               ///< every n-th of them; >= 1
+  bool people_free_only = false;      ///< only frames that the source marks as people-free
+  std::optional<std::int64_t> first;  ///< only frames [0, first)
+  std::int64_t every = 1;             ///< every n-th of them; >= 1
 };
 
-/// What a node knows after a pass over frames (a background, a template hierarchy). The kernel caches it
-/// under a key of the node's resolved parameters, its plugin, the scene, the source with its files, and
-/// extra_key(); a damaged or stale entry is learned again.
+/// What a node knows after a pass over frames (a background, a template hierarchy). The kernel
+/// caches it under a key of the node's resolved parameters, its plugin, the scene, the source with
+/// its files, and extra_key(); a damaged or stale entry is learned again.
 class PLAZA_API Learner {
  public:
   virtual ~Learner();
@@ -27,7 +28,8 @@ class PLAZA_API Learner {
   /// Nothing: there is something to compute but no frames are needed (finish() does it).
   std::optional<LearningPlan> plan() const;  ///< checks every >= 1, first >= 1
   void learn(const FrameSet& frames) { do_learn(frames); }
-  /// Ends learning after `seen` frames. Throws UserError when they were too few, saying how many it needs.
+  /// Ends learning after `seen` frames. Throws UserError when they were too few, saying how many it
+  /// needs.
   void finish(std::int64_t seen) { do_finish(seen); }
   void save(std::ostream& out) const { do_save(out); }
   /// Restores what save() wrote; throws Error when the content does not fit, after which the kernel

@@ -13,15 +13,16 @@
 
 namespace plaza {
 
-/// Model templates in one view, in the form that one modality compares. Made by that modality's sample().
+/// Model templates in one view, in the form that one modality compares. Made by that modality's
+/// sample().
 class PLAZA_API TemplateBatch {
  public:
   virtual ~TemplateBatch();
   virtual std::size_t size() const = 0;
 };
 
-/// A visual modality is four operations over one view: prepare, sample, match, explain. All are const
-/// and thread-safe. Virtual calls are per image and per batch, never per point.
+/// A visual modality is four operations over one view: prepare, sample, match, explain. All are
+/// const and thread-safe. Virtual calls are per image and per batch, never per point.
 ///
 /// Node ports: in 0 Frames; out 0 Evidence, out 1 ForegroundMask where declared.
 class PLAZA_API Modality : public Node {
@@ -30,14 +31,15 @@ class PLAZA_API Modality : public Node {
 
   struct Prepared {
     EvidencePtr evidence;  ///< never null
-    cv::Mat foreground;    ///< 8-bit mask of the image's size, or empty where the modality gives none
+    cv::Mat foreground;  ///< 8-bit mask of the image's size, or empty where the modality gives none
   };
   /// Image -> evidence. `image` is 8-bit BGR of the camera's size.
   Prepared prepare(const cv::Mat& image, std::size_t camera) const;
   /// Model at poses -> templates in view `camera`, one per pose, in the same order.
   std::unique_ptr<TemplateBatch> sample(const ShapeModel& model, std::span<const Pose> poses,
                                         std::size_t camera) const;
-  /// Log-likelihood of every template; `log_likelihood.size()` is the batch's. NaN: this view can't tell.
+  /// Log-likelihood of every template; `log_likelihood.size()` is the batch's. NaN: this view can't
+  /// tell.
   void match(const Evidence& evidence, const TemplateBatch& templates,
              std::span<double> log_likelihood) const;
   /// The evidence without what template `index` accounts for; the input stays as it is.
@@ -49,7 +51,8 @@ class PLAZA_API Modality : public Node {
   const Scene& scene() const { return *scene_; }
 
   virtual Prepared do_prepare(const cv::Mat& image, std::size_t camera) const = 0;
-  virtual std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model, std::span<const Pose> poses,
+  virtual std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model,
+                                                   std::span<const Pose> poses,
                                                    std::size_t camera) const = 0;
   virtual void do_match(const Evidence& evidence, const TemplateBatch& templates,
                         std::span<double> log_likelihood) const = 0;

@@ -64,7 +64,8 @@ class PLAZA_API AppearanceModel : public Component {
   std::vector<SurfacePoint> visible_points(const Pose& pose, const Camera& camera) const;
 
  protected:
-  virtual std::vector<SurfacePoint> do_visible_points(const Pose& pose, const Camera& camera) const = 0;
+  virtual std::vector<SurfacePoint> do_visible_points(const Pose& pose,
+                                                      const Camera& camera) const = 0;
 };
 
 /// Gaussian belief of a motion model; the layout of `mean` is the model's own.
@@ -82,8 +83,8 @@ class PLAZA_API MotionModel : public Component {
   MotionState predict(const MotionState& state, double dt_s) const;
   MotionState correct(const MotionState& state, const Eigen::Vector2d& position_m,
                       const Eigen::Matrix2d& covariance_m2) const;
-  Eigen::Vector2d position(const MotionState& state) const;    ///< m
-  Eigen::Vector2d velocity(const MotionState& state) const;    ///< m/s
+  Eigen::Vector2d position(const MotionState& state) const;             ///< m
+  Eigen::Vector2d velocity(const MotionState& state) const;             ///< m/s
   Eigen::Matrix2d position_covariance(const MotionState& state) const;  ///< m^2
 
  protected:

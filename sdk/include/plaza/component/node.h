@@ -13,12 +13,12 @@ namespace plaza {
 
 class Learner;
 
-/// One node's view of one frame: its inputs (by position in the declaration, input lists following) and
-/// its outputs. Lives on the kernel's stack for the time of a call.
+/// One node's view of one frame: its inputs (by position in the declaration, input lists following)
+/// and its outputs. Lives on the kernel's stack for the time of a call.
 class PLAZA_API NodeIo {
  public:
-  /// `slots` holds the payloads of all nodes in this frame; `inputs` and `outputs` index into it, an
-  /// input of -1 is not connected.
+  /// `slots` holds the payloads of all nodes in this frame; `inputs` and `outputs` index into it,
+  /// an input of -1 is not connected.
   NodeIo(std::int64_t frame, std::int64_t time_ns, PayloadPtr* slots, std::span<const int> inputs,
          std::span<const int> outputs)
       : frame_(frame), time_ns_(time_ns), slots_(slots), inputs_(inputs), outputs_(outputs) {}
@@ -61,14 +61,14 @@ class PLAZA_API NodeIo {
   std::span<const int> outputs_;
 };
 
-/// One entry of a pipeline's "nodes". Plugins derive from the kinds below it (Source, Modality, Detector,
-/// Describer, Associator, Evaluator, Sink, Renderer), not from Node itself.
+/// One entry of a pipeline's "nodes". Plugins derive from the kinds below it (Source, Modality,
+/// Detector, Describer, Associator, Evaluator, Sink, Renderer), not from Node itself.
 class PLAZA_API Node : public Component {
  public:
   ~Node() override;
 
-  /// Works on one frame. Nodes without memory are called concurrently for different frames; nodes with
-  /// memory are called for every frame in order (see ComponentDeclaration::memory).
+  /// Works on one frame. Nodes without memory are called concurrently for different frames; nodes
+  /// with memory are called for every frame in order (see ComponentDeclaration::memory).
   void process(NodeIo& io) { do_process(io); }
   /// After the last frame, once, in pipeline order: nodes with memory emit what they still hold.
   /// io.frame() is one past the last frame.

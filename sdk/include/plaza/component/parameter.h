@@ -21,18 +21,19 @@ enum class ParameterType {
   kInteger,
   kReal,
   kText,
-  kChoice,     ///< one of ParameterSpec::choices
-  kPath,       ///< a file or folder: "$PLAZA_DATA/..." is replaced, relative ones start at the JSON file
-  kList,       ///< array of element[0]
-  kMap,        ///< object: free key (a camera's name) -> element[0]
-  kPart,       ///< one nested component of kind part_kind: { "use": ..., ... }
+  kChoice,  ///< one of ParameterSpec::choices
+  kPath,  ///< a file or folder: "$PLAZA_DATA/..." is replaced, relative ones start at the JSON file
+  kList,  ///< array of element[0]
+  kMap,   ///< object: free key (a camera's name) -> element[0]
+  kPart,  ///< one nested component of kind part_kind: { "use": ..., ... }
   kPartList,   ///< array of nested components of kind part_kind, each with a unique name
   kInputList,  ///< array of { "from": NODE, fields of `element` }: further inputs of type `port`
 };
 
 PLAZA_API std::string_view to_string(ParameterType type);
 
-/// Everything there is to know about one parameter: parsing, JSON Schema, `plaza show`, reference pages,
+/// Everything there is to know about one parameter: parsing, JSON Schema, `plaza show`, reference
+/// pages,
 /// --set, study axes and resolved.json are made from it.
 struct ParameterSpec {
   std::string name;
@@ -45,7 +46,8 @@ struct ParameterSpec {
   std::optional<double> minimum, maximum;
   bool minimum_exclusive = false, maximum_exclusive = false;
   std::vector<std::string> choices;
-  std::vector<ParameterSpec> element;  ///< [0] of lists and maps; the fields of an input list's records
+  std::vector<ParameterSpec>
+      element;  ///< [0] of lists and maps; the fields of an input list's records
   std::size_t min_items = 0;
   std::optional<std::size_t> max_items;
   std::string part_kind;  ///< for parts: "shape", "affinity", "motion", ...
@@ -83,14 +85,15 @@ struct ParameterTraits<bool> {
   static nlohmann::json write(bool v) { return v; }
 };
 template <class T>
-  requires(std::is_integral_v<T> && !std::is_same_v<T, bool>)
-struct ParameterTraits<T> {
+requires(std::is_integral_v<T> && !std::is_same_v<T, bool>) struct ParameterTraits<T> {
   static ParameterSpec spec() {
     ParameterSpec s = scalar_spec(ParameterType::kInteger);
     // doubles hold these limits exactly up to 2^53, which is what JSON numbers promise
-    s.minimum = std::is_signed_v<T> && sizeof(T) == 8 ? -9007199254740992.0
-                                                     : static_cast<double>(std::numeric_limits<T>::min());
-    s.maximum = sizeof(T) == 8 ? 9007199254740992.0 : static_cast<double>(std::numeric_limits<T>::max());
+    s.minimum = std::is_signed_v<T> && sizeof(T) == 8
+                    ? -9007199254740992.0
+                    : static_cast<double>(std::numeric_limits<T>::min());
+    s.maximum =
+        sizeof(T) == 8 ? 9007199254740992.0 : static_cast<double>(std::numeric_limits<T>::max());
     return s;
   }
   static T read(const nlohmann::json& v) { return v.get<T>(); }
@@ -167,7 +170,8 @@ struct ParameterTraits<std::map<std::string, T>> {
 /// initialiser), unit, range, meaning and source stand here and nowhere else.
 ///
 ///   Parameters<Options> p;
-///   p.value("gate_m", &Options::gate_m).unit("m").above(0).meaning("radius of the validation gate")
+///   p.value("gate_m", &Options::gate_m).unit("m").above(0).meaning("radius of the validation
+///   gate")
 ///       .source("thesis (6.1)");
 template <class Options>
 class Parameters {
@@ -188,8 +192,8 @@ class Parameters {
   }
   /// An enum, spelled as one of `names` (enumerators 0, 1, 2, ... in this order).
   template <class E>
-    requires(std::is_enum_v<E>)
-  ParameterBuilder choice(std::string name, E Options::*member, std::vector<std::string> names) {
+  requires(std::is_enum_v<E>) ParameterBuilder
+      choice(std::string name, E Options::*member, std::vector<std::string> names) {
     ParameterSpec spec = detail::scalar_spec(ParameterType::kChoice);
     spec.name = std::move(name);
     spec.default_value = names.at(static_cast<std::size_t>(Options{}.*member));
@@ -222,7 +226,8 @@ class Parameters {
   }
   /// Further inputs of type `port`, each a record { "from": NODE, fields }. Fetch with
   /// BuildContext::inputs(name).
-  ParameterBuilder input_list(std::string name, std::string port, std::vector<ParameterSpec> fields) {
+  ParameterBuilder input_list(std::string name, std::string port,
+                              std::vector<ParameterSpec> fields) {
     ParameterSpec spec = detail::scalar_spec(ParameterType::kInputList);
     spec.name = std::move(name);
     spec.port = std::move(port);

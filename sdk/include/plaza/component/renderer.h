@@ -14,13 +14,14 @@ namespace plaza {
 struct RenderFrame {
   std::int64_t frame = 0;
   std::int64_t time_ns = 0;
-  const FrameSet* frames = nullptr;            ///< re-read from the source; never null
-  std::span<const TrackPoint> tracks;          ///< final points of this frame, by rising id
-  const GroundTruth* ground_truth = nullptr;   ///< null where the pipeline has none
+  const FrameSet* frames = nullptr;           ///< re-read from the source; never null
+  std::span<const TrackPoint> tracks;         ///< final points of this frame, by rising id
+  const GroundTruth* ground_truth = nullptr;  ///< null where the pipeline has none
 };
 
-/// Makes pictures and videos that need final tracks and images together. Runs in the render phase, in
-/// frame order. As a node it declares inputs Frames and Tracks (and GroundTruth, optional), in this order.
+/// Makes pictures and videos that need final tracks and images together. Runs in the render phase,
+/// in frame order. As a node it declares inputs Frames and Tracks (and GroundTruth, optional), in
+/// this order.
 class PLAZA_API Renderer : public Node {
  public:
   ~Renderer() override;

@@ -18,13 +18,14 @@ struct Artifact {
 class PLAZA_API Sink : public Node {
  public:
   ~Sink() override;
-  /// After flush, or after a fault or interruption (`complete` false): closes files so that they are
-  /// valid, and lists them.
+  /// After flush, or after a fault or interruption (`complete` false): closes files so that they
+  /// are valid, and lists them.
   std::vector<Artifact> finish(bool complete) { return do_finish(complete); }
 
  protected:
   virtual void do_write(const NodeIo& io) = 0;
-  /// What associators held back until the flush, which is no frame; io.frame() is one past the last.
+  /// What associators held back until the flush, which is no frame; io.frame() is one past the
+  /// last.
   virtual void do_write_rest(const NodeIo& io) { do_write(io); }
   virtual std::vector<Artifact> do_finish(bool complete) = 0;
 

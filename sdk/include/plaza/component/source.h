@@ -9,21 +9,22 @@
 namespace plaza {
 
 struct SourceInfo {
-  /// How many frames are expected, for progress and early checks; nothing: not known before the end. A
-  /// video's header may be wrong by a few: only read() says where the end is.
+  /// How many frames are expected, for progress and early checks; nothing: not known before the
+  /// end. A video's header may be wrong by a few: only read() says where the end is.
   std::optional<std::int64_t> frame_count;
-  bool rereadable = true;                   ///< false: a live source, seek() works only once, to 0
+  bool rereadable = true;  ///< false: a live source, seek() works only once, to 0
 };
 
 /// What a source is in its pipeline.
 enum class SourceRole {
   kClock,     ///< the first source: the run ends where it ends, and it alone gives Frames
-  kFollower,  ///< a further source: gives no Frames and never ends; beyond its data it says "nothing here"
+  kFollower,  ///< a further source: gives no Frames and never ends; beyond its data it says
+              ///< "nothing here"
 };
 
-/// Gives payloads frame by frame. The first source of a pipeline is its clock: the run ends where it
-/// ends, and it alone gives Frames. Further sources (given detections, ground truth) are read at the
-/// same frame and add what else they give.
+/// Gives payloads frame by frame. The first source of a pipeline is its clock: the run ends where
+/// it ends, and it alone gives Frames. Further sources (given detections, ground truth) are read at
+/// the same frame and add what else they give.
 class PLAZA_API Source : public Node {
  public:
   ~Source() override;
@@ -32,9 +33,9 @@ class PLAZA_API Source : public Node {
   SourceInfo open(SourceRole role = SourceRole::kClock);
   /// Makes `frame` the next one to be read. Throws UserError when it is beyond the end.
   void seek(std::int64_t frame);
-  /// Emits the payloads of frame io.frame(), which is the next one in order, and returns true; returns
-  /// false, having emitted nothing, at the end. Throws UserError naming camera and remedy when the data
-  /// stop half-way or do not fit the scene.
+  /// Emits the payloads of frame io.frame(), which is the next one in order, and returns true;
+  /// returns false, having emitted nothing, at the end. Throws UserError naming camera and remedy
+  /// when the data stop half-way or do not fit the scene.
   bool read(NodeIo& io);
 
  protected:
@@ -49,8 +50,8 @@ class PLAZA_API Source : public Node {
 
  public:
   bool people_free(std::int64_t frame) const { return do_people_free(frame); }
-  /// Text that changes when what the source reads from outside changes (its files with sizes and times
-  /// of modification), for cache keys; parameters need not be in it. Works before open().
+  /// Text that changes when what the source reads from outside changes (its files with sizes and
+  /// times of modification), for cache keys; parameters need not be in it. Works before open().
   std::string content_key() const { return do_content_key(); }
 
  private:

@@ -54,7 +54,8 @@ class PLAZA_API InternalError : public Error {
   ~InternalError() override;
 };
 
-/// "node 'detector', frame 12, camera 'view1'", leaving out what is not known; frames as in files, from 1.
+/// "node 'detector', frame 12, camera 'view1'", leaving out what is not known; frames as in files,
+/// from 1.
 PLAZA_API std::string to_string(const FaultContext& context);
 
 }  // namespace plaza

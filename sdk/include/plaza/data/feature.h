@@ -9,8 +9,8 @@
 
 namespace plaza {
 
-/// What a describer found out about an observation or a tracklet (a colour histogram, an orientation).
-/// A feature type F names itself in `static constexpr std::string_view kFeature`.
+/// What a describer found out about an observation or a tracklet (a colour histogram, an
+/// orientation). A feature type F names itself in `static constexpr std::string_view kFeature`.
 class PLAZA_API Feature {
  public:
   virtual ~Feature();

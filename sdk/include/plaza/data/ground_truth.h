@@ -27,8 +27,8 @@ struct TruePerson {
   std::vector<TrueView> views;                ///< by rising camera index
 };
 
-/// The truth of one frame. Never an input of anything but evaluators, sinks and renderers: the check
-/// refuses a pipeline in which a detector, describer or associator reads it.
+/// The truth of one frame. Never an input of anything but evaluators, sinks and renderers: the
+/// check refuses a pipeline in which a detector, describer or associator reads it.
 struct PLAZA_API GroundTruth final : PayloadOf<GroundTruth> {
   static constexpr std::string_view kPort = "GroundTruth";
   ~GroundTruth() override;

@@ -7,8 +7,8 @@
 
 namespace plaza {
 
-/// What travels between nodes: immutable once emitted, shared, never copied. A payload type T names its
-/// port in `static constexpr std::string_view kPort`; two types never share a port name.
+/// What travels between nodes: immutable once emitted, shared, never copied. A payload type T names
+/// its port in `static constexpr std::string_view kPort`; two types never share a port name.
 class PLAZA_API Payload {
  public:
   virtual ~Payload();

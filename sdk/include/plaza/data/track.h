@@ -18,14 +18,16 @@ struct TrackPoint {
   std::int64_t frame = 0;  ///< from 0
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   std::optional<double> heading_rad;
-  double score = 0;             ///< [0, 1]
-  bool observed = true;         ///< false: bridged, no observation supports this frame
-  bool final = false;           ///< true: the associator will not touch this (id, frame) again
-  std::vector<ViewBox> boxes;   ///< measured boxes, where there are any; views without one are drawn from the body
+  double score = 0;      ///< [0, 1]
+  bool observed = true;  ///< false: bridged, no observation supports this frame
+  bool final = false;    ///< true: the associator will not touch this (id, frame) again
+  std::vector<ViewBox>
+      boxes;  ///< measured boxes, where there are any; views without one are drawn from the body
 };
 
-/// What an associator says in one step. A point that is open (not final) replaces an earlier open point
-/// of the same (id, frame); a final one ends it. Points that never become final are not part of the answer.
+/// What an associator says in one step. A point that is open (not final) replaces an earlier open
+/// point of the same (id, frame); a final one ends it. Points that never become final are not part
+/// of the answer.
 struct PLAZA_API Tracks final : PayloadOf<Tracks> {
   static constexpr std::string_view kPort = "Tracks";
   ~Tracks() override;
