@@ -111,7 +111,8 @@ void ModelCache::store(std::string_view key, std::string_view content) const {
   // a name of this process's own first: two runs may learn the same thing at the same time
   const std::filesystem::path target = file_of(key);
   std::filesystem::path own = target;
-  own += "." + std::to_string(::getpid());
+  own += '.';
+  own += std::to_string(::getpid());
   write_file(own, entry);
   std::filesystem::rename(own, target, error);
   if (error) {

@@ -51,9 +51,10 @@ void Faults::add(int line, int column, std::string message) {
 void Faults::throw_if_any() {
   if (!any()) return;
   if (count_ > kept_.size()) {
-    kept_.push_back({.where = {file_, 0, 0},
-                     .pointer = {},
-                     .message = "and " + std::to_string(count_ - kept_.size()) + " more faults"});
+    Diagnostic rest;
+    rest.where.file = file_;
+    rest.message = "and " + std::to_string(count_ - kept_.size()) + " more faults";
+    kept_.push_back(std::move(rest));
   }
   throw UserError(std::move(kept_));
 }
@@ -173,7 +174,10 @@ std::optional<std::int64_t> whole_number(const Field& field, const char* what, i
 
 std::string read_text(const std::string& file) {
   const auto fail = [&file](const std::string& message) {
-    throw UserError(Diagnostic{.where = {file, 0, 0}, .pointer = {}, .message = message});
+    Diagnostic fault;
+    fault.where.file = file;
+    fault.message = message;
+    throw UserError(std::move(fault));
   };
   std::error_code error;
   if (!std::filesystem::exists(file, error)) fail("no such file; check the path");
