@@ -28,7 +28,7 @@ std::vector<fs::path> pipelines() {
   std::vector<fs::path> files;
   if (!fs::is_directory(kFolder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
-    const std::string folder = entry.path().parent_path().filename().string();
+    const std::string folder = fs::relative(entry.path(), kFolder).begin()->string();
     if (entry.path().extension() != ".json" || folder == "scenes" || folder == "studies") continue;
     files.push_back(entry.path());
   }
