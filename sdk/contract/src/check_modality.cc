@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "digest.h"
@@ -89,6 +91,7 @@ class ModalityCheck {
       }
       findings_.require(binary, "the foreground has values other than 0 and 255");
     }
+    check_pictures(*prepared.evidence, image.size());
     const std::vector<double> reference = matched(*modality_, *prepared.evidence, camera);
     for (const double v : reference) {
       findings_.require(std::isfinite(v) || std::isnan(v), "match() gives an infinite likelihood");
@@ -114,6 +117,22 @@ class ModalityCheck {
       if (std::isfinite(after[i]) && std::isfinite(reference[i])) {
         findings_.require(after[i] <= reference[i] + 1e-9,
                           "a template is more likely after its evidence was explained");
+      }
+    }
+  }
+
+  void check_pictures(const Evidence& evidence, cv::Size size) {
+    std::set<std::string> names;
+    for (const Picture& picture : evidence.pictures()) {
+      const std::string what = "picture '" + picture.name + "' ";
+      const bool file_name = !picture.name.empty() &&
+                             picture.name.find_first_not_of(
+                                 "abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+      if (!file_name) findings_.add(what + "has a name that makes no file name");
+      if (!names.insert(picture.name).second) findings_.add(what + "is there twice");
+      if (picture.caption.empty()) findings_.add(what + "has no caption");
+      if (picture.image.type() != CV_8UC3 || picture.image.size() != size) {
+        findings_.add(what + "is not 8-bit BGR of the view's size");
       }
     }
   }

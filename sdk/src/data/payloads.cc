@@ -12,6 +12,7 @@ namespace plaza {
 Payload::~Payload() = default;
 Feature::~Feature() = default;
 Evidence::~Evidence() = default;
+std::vector<Picture> Evidence::pictures() const { return {}; }
 FrameSet::~FrameSet() = default;
 Detections::~Detections() = default;
 Observations::~Observations() = default;

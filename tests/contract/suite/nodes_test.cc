@@ -114,6 +114,15 @@ class Brightness final : public Modality {
  private:
   struct Grey : Evidence {
     cv::Mat image;
+    std::string fault;
+    std::vector<Picture> pictures() const override {
+      Picture grey{"grey", "grey values", image};
+      if (fault == "picture-name") grey.name = "Grey/values";
+      if (fault == "picture-caption") grey.caption.clear();
+      if (fault == "picture-size") grey.image = image.rowRange(1, image.rows);
+      if (fault == "picture-twice") return {grey, grey};
+      return {grey};
+    }
   };
   struct Boxes : TemplateBatch {
     std::vector<cv::Rect> boxes;
@@ -121,6 +130,7 @@ class Brightness final : public Modality {
   };
   Prepared do_prepare(const cv::Mat& image, std::size_t) const override {
     auto grey = std::make_shared<Grey>();
+    grey->fault = fault_;
     image.copyTo(grey->image);
     if (fault_ == "random") grey->image.rowRange(40, 90).setTo(cv::Scalar::all(++calls_));
     if (fault_ == "scribbles") const_cast<cv::Mat&>(image).setTo(0);
@@ -180,6 +190,10 @@ TEST(ModalityContractTest, EachBrokenPromiseIsCaught) {
       {"explain-in-place", "explain() changes the evidence that it was given"},
       {"explain-more", "a template is more likely after its evidence was explained"},
       {"scribbles", "prepare() writes to the image"},
+      {"picture-name", "picture 'Grey/values' has a name that makes no file name"},
+      {"picture-caption", "picture 'grey' has no caption"},
+      {"picture-size", "picture 'grey' is not 8-bit BGR of the view's size"},
+      {"picture-twice", "picture 'grey' is there twice"},
   });
 }
 
