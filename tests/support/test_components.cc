@@ -103,6 +103,7 @@ class QuietModality : public Modality {
     return nullptr;
   }
   void do_match(const Evidence& /*evidence*/, const TemplateBatch& /*templates*/,
+                std::span<const std::uint32_t> /*which*/,
                 std::span<double> /*log_likelihood*/) const override {}
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& /*templates*/,
                          std::size_t /*index*/) const override {

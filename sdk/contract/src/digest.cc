@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "plaza/data/ground_likelihood.h"
+
 namespace plaza::contract {
 namespace {
 
@@ -50,11 +52,11 @@ class Writer {
   }
   Writer& observations(const Observations& all, bool described) {
     for (const Observation& o : all.items) observation(o, described);
-    if (all.grid) {
-      *this << all.grid->origin_m << all.grid->step_m << std::int64_t{all.grid->columns}
-            << std::int64_t{all.grid->rows};
-    }
+    if (all.grid) grid(*all.grid);
     return *this;
+  }
+  Writer& grid(const GroundGrid& g) {
+    return *this << g.origin_m << g.step_m << std::int64_t{g.columns} << std::int64_t{g.rows};
   }
   std::string take() { return std::move(text_); }
 
@@ -102,6 +104,13 @@ std::string digest(const Payload& payload) {
     }
   } else if (const auto* masks = dynamic_cast<const ForegroundMask*>(&payload)) {
     for (const cv::Mat& view : masks->views) w << view;
+  } else if (const auto* likelihood = dynamic_cast<const GroundLikelihood*>(&payload)) {
+    w.grid(likelihood->grid);
+    for (const double v : likelihood->joint) w << v;
+    for (const std::vector<double>& view : likelihood->views) {
+      w << std::string_view("|");
+      for (const double v : view) w << v;
+    }
   } else if (const auto* evidence = dynamic_cast<const EvidenceSet*>(&payload)) {
     for (const EvidencePtr& view : evidence->views) w << std::uint64_t{view != nullptr};
   }

@@ -1,9 +1,13 @@
 // The checks around every kind's virtual functions: a plugin that breaks an invariant is named at
 // once, not where its result makes trouble later.
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "plaza/component/declaration.h"
 #include "plaza/core/parallel.h"
@@ -34,6 +38,22 @@ void check_observation(const Observation& o, std::size_t index) {
     if (o.boxes[i - 1].camera >= o.boxes[i].camera) {
       throw InternalError(at("observation", index) + "boxes are not by rising camera");
     }
+  }
+}
+
+void check_likelihood(const GroundLikelihood& likelihood) {
+  const GroundGrid& grid = likelihood.grid;
+  const auto cells = static_cast<std::size_t>(std::max(grid.columns, 0)) *
+                     static_cast<std::size_t>(std::max(grid.rows, 0));
+  bool fits = likelihood.joint.size() == cells;
+  for (const std::vector<double>& view : likelihood.views) fits = fits && view.size() == cells;
+  if (!fits) throw InternalError("a ground likelihood needs one value per cell of its grid");
+  const auto bounded = [](const std::vector<double>& values) {
+    return std::none_of(values.begin(), values.end(), [](double v) { return std::isinf(v); });
+  };
+  if (!bounded(likelihood.joint) ||
+      !std::all_of(likelihood.views.begin(), likelihood.views.end(), bounded)) {
+    throw InternalError("a ground likelihood is infinite; NaN says that it is unknown");
   }
 }
 
@@ -126,7 +146,19 @@ void Modality::match(const Evidence& evidence, const TemplateBatch& templates,
   if (log_likelihood.size() != templates.size()) {
     throw std::invalid_argument("match() needs room for one likelihood per template");
   }
-  do_match(evidence, templates, log_likelihood);
+  std::vector<std::uint32_t> all(templates.size());
+  std::iota(all.begin(), all.end(), 0U);
+  do_match(evidence, templates, all, log_likelihood);
+}
+void Modality::match(const Evidence& evidence, const TemplateBatch& templates,
+                     std::span<const std::uint32_t> which, std::span<double> log_likelihood) const {
+  if (log_likelihood.size() != which.size()) {
+    throw std::invalid_argument("match() needs room for one likelihood per template");
+  }
+  for (const std::uint32_t index : which) {
+    if (index >= templates.size()) throw std::out_of_range("template index");
+  }
+  do_match(evidence, templates, which, log_likelihood);
 }
 EvidencePtr Modality::explain(const EvidencePtr& evidence, const TemplateBatch& templates,
                               std::size_t index) const {
@@ -158,12 +190,24 @@ void Modality::do_process(NodeIo& io) {
 
 Detector::~Detector() = default;
 Observations Detector::detect(const NodeIo& io) const {
-  Observations observations = do_detect(io);
-  for (std::size_t i = 0; i < observations.items.size(); ++i)
-    check_observation(observations.items[i], i);
-  return observations;
+  return std::move(detect_all(io).observations);
 }
-void Detector::do_process(NodeIo& io) { io.out(0, std::make_shared<Observations>(detect(io))); }
+Detector::Detected Detector::detect_all(const NodeIo& io) const {
+  Detected found = do_detect_all(io);
+  for (std::size_t i = 0; i < found.observations.items.size(); ++i)
+    check_observation(found.observations.items[i], i);
+  if (found.likelihood) check_likelihood(*found.likelihood);
+  return found;
+}
+Detector::Detected Detector::do_detect_all(const NodeIo& io) const { return {do_detect(io), {}}; }
+void Detector::do_process(NodeIo& io) {
+  Detected found = detect_all(io);
+  io.out(0, std::make_shared<Observations>(std::move(found.observations)));
+  if (io.output_count() > 1) {
+    if (!found.likelihood) throw InternalError("the declared GroundLikelihood was not computed");
+    io.out(1, std::move(found.likelihood));
+  }
+}
 
 Describer::~Describer() = default;
 Observations Describer::describe(const NodeIo& io) {

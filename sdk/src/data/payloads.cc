@@ -3,6 +3,7 @@
 #include "plaza/data/evidence.h"
 #include "plaza/data/feature.h"
 #include "plaza/data/frames.h"
+#include "plaza/data/ground_likelihood.h"
 #include "plaza/data/ground_truth.h"
 #include "plaza/data/observation.h"
 #include "plaza/data/track.h"
@@ -19,6 +20,7 @@ Observations::~Observations() = default;
 Tracks::~Tracks() = default;
 Tracklets::~Tracklets() = default;
 GroundTruth::~GroundTruth() = default;
+GroundLikelihood::~GroundLikelihood() = default;
 EvidenceSet::~EvidenceSet() = default;
 ForegroundMask::~ForegroundMask() = default;
 

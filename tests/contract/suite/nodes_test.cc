@@ -152,16 +152,17 @@ class Brightness final : public Modality {
     return batch;
   }
   void do_match(const Evidence& evidence, const TemplateBatch& templates,
-                std::span<double> out) const override {
+                std::span<const std::uint32_t> which, std::span<double> out) const override {
     const auto& grey = static_cast<const Grey&>(evidence).image;
     const auto& boxes = static_cast<const Boxes&>(templates).boxes;
     for (std::size_t i = 0; i < out.size(); ++i) {
+      const cv::Rect& box = boxes[fault_ == "subset" ? i : which[i]];
       double sum = 0;
-      for (int y = boxes[i].y; y < boxes[i].br().y; ++y) {
-        for (int x = boxes[i].x; x < boxes[i].br().x; ++x) sum += grey.at<cv::Vec3b>(y, x)[0];
+      for (int y = box.y; y < box.br().y; ++y) {
+        for (int x = box.x; x < box.br().x; ++x) sum += grey.at<cv::Vec3b>(y, x)[0];
       }
       // outside all views: cannot tell
-      out[i] = boxes[i].empty() ? std::numeric_limits<double>::quiet_NaN() : sum;
+      out[i] = box.empty() ? std::numeric_limits<double>::quiet_NaN() : sum;
       if (fault_ == "infinite") out[i] = -std::numeric_limits<double>::infinity();
       if (fault_ == "jitter") out[i] = static_cast<double>(++calls_);
     }
@@ -187,6 +188,7 @@ TEST(ModalityContractTest, EachBrokenPromiseIsCaught) {
       {"count", "sample() must return one template per pose"},
       {"infinite", "match() gives an infinite likelihood"},
       {"jitter", "match() gives another answer the second time"},
+      {"subset", "match() of some templates gives other values than match() of all"},
       {"explain-in-place", "explain() changes the evidence that it was given"},
       {"explain-more", "a template is more likely after its evidence was explained"},
       {"scribbles", "prepare() writes to the image"},
@@ -204,7 +206,7 @@ class FromBoxes final : public Detector {
   static Declaration<Options> declare() {
     Declaration<Options> d("from-boxes", "Feet of boxes");
     d.input<Detections>("boxes").optional_input<FrameSet>("images").output<Observations>("people");
-    d.parameters(fault_parameter());
+    d.output<GroundLikelihood>("two cells").parameters(fault_parameter());
     return d;
   }
   FromBoxes(const Options& options, const BuildContext& context)
@@ -233,6 +235,16 @@ class FromBoxes final : public Detector {
     if (fault_ == "writes") const_cast<Detections&>(detections).views.at(0).clear();
     return out;
   }
+  Detected do_detect_all(const NodeIo& io) const override {
+    auto likelihood = std::make_shared<GroundLikelihood>();
+    likelihood->grid.columns = 2;
+    likelihood->grid.rows = 1;
+    likelihood->joint = {-1, std::numeric_limits<double>::quiet_NaN()};
+    if (fault_ == "cells") likelihood->joint.pop_back();
+    if (fault_ == "certain") likelihood->joint[0] = -std::numeric_limits<double>::infinity();
+    if (fault_ == "surface") likelihood.reset();
+    return {do_detect(io), likelihood};
+  }
 
  private:
   std::string fault_;
@@ -249,6 +261,9 @@ TEST(DetectorContractTest, EachBrokenPromiseIsCaught) {
       {"camera", "a box names a camera that the scene lacks"},
       {"ghost", "people are found where no view shows anything"},
       {"writes", "process() changes its input"},
+      {"cells", "a ground likelihood needs one value per cell of its grid"},
+      {"certain", "a ground likelihood is infinite"},
+      {"surface", "the declared GroundLikelihood was not computed"},
   });
 }
 

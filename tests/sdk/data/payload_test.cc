@@ -9,6 +9,7 @@
 #include "plaza/data/detections.h"
 #include "plaza/data/evidence.h"
 #include "plaza/data/frames.h"
+#include "plaza/data/ground_likelihood.h"
 #include "plaza/data/ground_truth.h"
 #include "plaza/data/observation.h"
 #include "plaza/data/track.h"
@@ -18,10 +19,11 @@ namespace {
 
 TEST(PayloadTest, EveryTypeHasAPortOfItsOwn) {
   const std::vector<PayloadPtr> payloads{
-      std::make_shared<Detections>(),     std::make_shared<EvidenceSet>(),
-      std::make_shared<ForegroundMask>(), std::make_shared<FrameSet>(),
-      std::make_shared<GroundTruth>(),    std::make_shared<Observations>(),
-      std::make_shared<Tracks>(),         std::make_shared<Tracklets>()};
+      std::make_shared<Detections>(),      std::make_shared<EvidenceSet>(),
+      std::make_shared<ForegroundMask>(),  std::make_shared<FrameSet>(),
+      std::make_shared<GroundTruth>(),     std::make_shared<Observations>(),
+      std::make_shared<Tracks>(),          std::make_shared<Tracklets>(),
+      std::make_shared<GroundLikelihood>()};
   std::set<std::string_view> ports;
   for (const PayloadPtr& payload : payloads) ports.insert(payload->port());
   EXPECT_EQ(ports.size(), payloads.size());

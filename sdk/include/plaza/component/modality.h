@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <span>
@@ -42,6 +43,12 @@ class PLAZA_API Modality : public Node {
   /// tell.
   void match(const Evidence& evidence, const TemplateBatch& templates,
              std::span<double> log_likelihood) const;
+  /// The same for some templates only, which is what a coarse-to-fine search needs:
+  /// log_likelihood[i] belongs to template which[i]. Any order, repetitions allowed; a template's
+  /// value doesn't depend on what else is asked for. Throws std::out_of_range for an index beyond
+  /// the batch.
+  void match(const Evidence& evidence, const TemplateBatch& templates,
+             std::span<const std::uint32_t> which, std::span<double> log_likelihood) const;
   /// The evidence without what template `index` accounts for; the input stays as it is.
   EvidencePtr explain(const EvidencePtr& evidence, const TemplateBatch& templates,
                       std::size_t index) const;
@@ -55,6 +62,7 @@ class PLAZA_API Modality : public Node {
                                                    std::span<const Pose> poses,
                                                    std::size_t camera) const = 0;
   virtual void do_match(const Evidence& evidence, const TemplateBatch& templates,
+                        std::span<const std::uint32_t> which,
                         std::span<double> log_likelihood) const = 0;
   virtual EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
                                  std::size_t index) const = 0;
