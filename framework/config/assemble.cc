@@ -67,6 +67,7 @@ class Assembler {
     context.scene = scene_;
     context.seed = component_seed(pipeline_.seed, part.path);
     context.output_folder = output_folder_;
+    context.in_order = part.entry->declaration.memory;
     return context;
   }
 

@@ -94,7 +94,8 @@ class TruthFile : public EmptySource {
 class QuietModality : public Modality {
  protected:
   using Modality::Modality;
-  Prepared do_prepare(const cv::Mat& /*image*/, std::size_t /*camera*/) const override {
+  Prepared do_prepare(const cv::Mat& /*image*/, std::size_t /*camera*/,
+                      const cv::Mat& /*previous*/) const override {
     return {};
   }
   std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& /*model*/,

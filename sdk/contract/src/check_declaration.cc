@@ -194,8 +194,11 @@ class DeclarationCheck {
           findings_.add("a " + kind + " must not read the ground truth");
       }
     }
-    if ((kind == "detector" || kind == "modality") && d_.memory) {
-      findings_.add("a " + kind + " has no memory between frames, but declares it");
+    if (kind == "detector" && d_.memory) {
+      findings_.add("a detector has no memory between frames, but declares it");
+    }
+    if (kind == "modality" && d_.memory && d_.outputs.size() < 2) {
+      findings_.add("a modality remembers its foreground, but declares memory without giving one");
     }
     if (kind_has_memory(kind) && !d_.memory)
       findings_.add("a component of kind " + kind + " has memory");

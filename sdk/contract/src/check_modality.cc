@@ -61,6 +61,7 @@ class ModalityCheck {
     poses_.push_back({{500, 500}, 0, 1});  // out of every view
     for (std::size_t c = 0; c < stage_.scene().cameras.size(); ++c) one_camera(c);
     as_a_node();
+    with_memory();
   }
 
  private:
@@ -188,6 +189,43 @@ class ModalityCheck {
             "evidence is there where the image is missing, or the other way round");
       }
     }
+  }
+
+  /// What a node gives follows from its frame and, where memory is declared, from the mask of the
+  /// frame before; a missing image breaks the chain.
+  void with_memory() {
+    if (stage_.declaration().outputs.size() < 2) return;
+    const auto node = stage_.make_as<Modality>();
+    std::vector<cv::Mat> before(stage_.scene().cameras.size());
+    for (std::int64_t frame = 0; frame < std::min<std::int64_t>(4, stage_.world().frame_count());
+         ++frame) {
+      const auto call = stage_.call(frame);
+      if (!findings_.step("frames in order", [&] { node->process(call->io()); })) return;
+      const auto* masks = dynamic_cast<const ForegroundMask*>(call->output(1).get());
+      if (masks == nullptr || masks->views.size() != before.size()) {
+        findings_.add("output 1 is no ForegroundMask of all views");
+        return;
+      }
+      for (std::size_t c = 0; c < before.size(); ++c) {
+        const cv::Mat& image = stage_.world().frames(frame).views[c];
+        cv::Mat expected;
+        if (!image.empty()) {
+          expected = modality_->prepare(image, c, before[c]).foreground;
+        }
+        findings_.require(same_mask(masks->views[c], expected),
+                          "the node's foreground is not that of prepare() with the mask of the "
+                          "frame before");
+        before[c] = stage_.declaration().memory ? masks->views[c] : cv::Mat();
+      }
+    }
+  }
+
+  static bool same_mask(const cv::Mat& a, const cv::Mat& b) {
+    if (a.size() != b.size() || a.type() != b.type()) return false;
+    for (int y = 0; y < a.rows; ++y) {
+      if (!std::equal(a.ptr(y), a.ptr(y) + a.cols * a.elemSize(), b.ptr(y))) return false;
+    }
+    return true;
   }
 
   const Stage& stage_;

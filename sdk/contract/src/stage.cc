@@ -56,6 +56,7 @@ NamedPart make_part(const nlohmann::json& value, const Trial& trial, BuildContex
   values.erase("use");
   values.erase("name");
   context.name = value.value("name", use);
+  context.in_order = subject->declaration.memory;
   add_parts(subject->declaration, values, trial, context);
   return {context.name, subject->make(plain_values(subject->declaration, values), context)};
 }
@@ -97,6 +98,7 @@ std::shared_ptr<Component> Stage::make_untaught() const {
   context.scene = scene_;
   context.seed = 7;
   context.output_folder = output_folder_;
+  context.in_order = declaration().memory;
   add_parts(declaration(), trial().values, trial(), context);
   auto component = subject_->make(plain_values(declaration(), trial().values), context);
   if (!component) throw InternalError("nothing was made");

@@ -85,6 +85,11 @@ TEST(DeclarationContractTest, EveryFaultIsNamed) {
          d.inputs.push_back({"GroundTruth", false, "cheating"});
        }},
       {"has no memory between frames", [](auto& d) { d.memory = true; }},
+      {"declares memory without giving one",
+       [](auto& d) {
+         d.kind = "modality";
+         d.memory = true;
+       }},
       {"only evaluators declare metrics",
        [](auto& d) {
          d.metrics = {{"s", "M", "", Better::kHigher, "m"}};

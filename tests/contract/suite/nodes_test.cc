@@ -105,7 +105,8 @@ class Brightness final : public Modality {
   using Options = Fault;
   static Declaration<Options> declare() {
     Declaration<Options> d("brightness", "Bright boxes");
-    d.input<FrameSet>("images").output<EvidenceSet>("grey values").parameters(fault_parameter());
+    d.input<FrameSet>("images").output<EvidenceSet>("grey values");
+    d.output<ForegroundMask>("everything").memory().parameters(fault_parameter());
     return d;
   }
   Brightness(const Options& options, const BuildContext& context)
@@ -128,13 +129,15 @@ class Brightness final : public Modality {
     std::vector<cv::Rect> boxes;
     std::size_t size() const override { return boxes.size(); }
   };
-  Prepared do_prepare(const cv::Mat& image, std::size_t) const override {
+  Prepared do_prepare(const cv::Mat& image, std::size_t,
+                      const cv::Mat& /*previous*/) const override {
     auto grey = std::make_shared<Grey>();
     grey->fault = fault_;
     image.copyTo(grey->image);
     if (fault_ == "random") grey->image.rowRange(40, 90).setTo(cv::Scalar::all(++calls_));
     if (fault_ == "scribbles") const_cast<cv::Mat&>(image).setTo(0);
-    cv::Mat mask;
+    cv::Mat mask(image.size(), CV_8UC1, cv::Scalar(255));
+    if (fault_ == "remembers") mask.setTo(255 * (++calls_ % 2));
     if (fault_ == "mask") mask = cv::Mat(image.size(), CV_8UC1, cv::Scalar(7));
     return {grey, mask};
   }
@@ -191,6 +194,8 @@ TEST(ModalityContractTest, EachBrokenPromiseIsCaught) {
       {"subset", "match() of some templates gives other values than match() of all"},
       {"explain-in-place", "explain() changes the evidence that it was given"},
       {"explain-more", "a template is more likely after its evidence was explained"},
+      {"remembers",
+       "the node's foreground is not that of prepare() with the mask of the frame before"},
       {"scribbles", "prepare() writes to the image"},
       {"picture-name", "picture 'Grey/values' has a name that makes no file name"},
       {"picture-caption", "picture 'grey' has no caption"},

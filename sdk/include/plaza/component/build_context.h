@@ -38,6 +38,9 @@ class PLAZA_API BuildContext {
   std::uint64_t seed = 0;              ///< from the pipeline's seed and this component's name
   std::filesystem::path
       output_folder;  ///< where sinks and renderers write; exists when a run starts
+  /// Whether frames come in order, one at a time (Declaration::memory): what a component may keep
+  /// from one call to the next depends on it.
+  bool in_order = false;
   std::map<std::string, std::vector<NamedPart>> part_lists;  ///< by parameter; kPart has one entry
   std::map<std::string, std::vector<InputReference>> input_lists;
 

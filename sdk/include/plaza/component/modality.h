@@ -25,6 +25,10 @@ class PLAZA_API TemplateBatch {
 /// A visual modality is four operations over one view: prepare, sample, match, explain. All are
 /// const and thread-safe. Virtual calls are per image and per batch, never per point.
 ///
+/// A modality whose evidence depends on what was foreground in the frame before declares memory();
+/// its node then keeps every view's mask for one frame and passes it to prepare(). The operations
+/// themselves stay without state.
+///
 /// Node ports: in 0 Frames; out 0 Evidence, out 1 ForegroundMask where declared.
 class PLAZA_API Modality : public Node {
  public:
@@ -34,8 +38,10 @@ class PLAZA_API Modality : public Node {
     EvidencePtr evidence;  ///< never null
     cv::Mat foreground;  ///< 8-bit mask of the image's size, or empty where the modality gives none
   };
-  /// Image -> evidence. `image` is 8-bit BGR of the camera's size.
-  Prepared prepare(const cv::Mat& image, std::size_t camera) const;
+  /// Image -> evidence. `image` is 8-bit BGR of the camera's size; `previous` is the foreground
+  /// that this view had in the frame before, 8-bit of the same size, 0 or 255, empty where there is
+  /// none (the first frame, a missing image, a modality without memory).
+  Prepared prepare(const cv::Mat& image, std::size_t camera, const cv::Mat& previous = {}) const;
   /// Model at poses -> templates in view `camera`, one per pose, in the same order.
   std::unique_ptr<TemplateBatch> sample(const ShapeModel& model, std::span<const Pose> poses,
                                         std::size_t camera) const;
@@ -54,10 +60,12 @@ class PLAZA_API Modality : public Node {
                       std::size_t index) const;
 
  protected:
-  explicit Modality(const BuildContext& context) : scene_(context.scene) {}
+  explicit Modality(const BuildContext& context)
+      : scene_(context.scene), in_order_(context.in_order) {}
   const Scene& scene() const { return *scene_; }
 
-  virtual Prepared do_prepare(const cv::Mat& image, std::size_t camera) const = 0;
+  virtual Prepared do_prepare(const cv::Mat& image, std::size_t camera,
+                              const cv::Mat& previous) const = 0;
   virtual std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model,
                                                    std::span<const Pose> poses,
                                                    std::size_t camera) const = 0;
@@ -70,6 +78,9 @@ class PLAZA_API Modality : public Node {
  private:
   void do_process(NodeIo& io) final;
   std::shared_ptr<const Scene> scene_;
+  bool in_order_;
+  std::vector<cv::Mat> previous_;  ///< the node's, by view: foreground of frame previous_frame_
+  std::int64_t previous_frame_ = -1;
 };
 
 }  // namespace plaza
