@@ -143,6 +143,8 @@ const std::map<std::string, Maker>& table() {
        [](const fs::path&) {
          return std::vector<Trial>{Trial(), trial("restless", {{"acceleration_sigma", 5.0}})};
        }},
+      {"cylinder", [](const fs::path&) { return defaults(); }},
+      {"box-parallelepiped", [](const fs::path&) { return defaults(); }},
       // detectors
       {"boxes", [](const fs::path&) { return defaults(); }},
       {"hog",

@@ -6,6 +6,7 @@
 
 #include "plaza/component/component.h"
 #include "plaza/geometry/camera.h"
+#include "plaza/geometry/silhouette.h"
 
 namespace plaza {
 
@@ -14,27 +15,6 @@ struct Pose {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   double heading_rad = 0;  ///< 0 along +x, counter-clockwise seen from above
   double scale = 1;        ///< body size relative to the model's own
-};
-
-/// A point of a silhouette's outline.
-struct ContourPoint {
-  Eigen::Vector2f pixel;
-  Eigen::Vector2f normal;  ///< unit length, outward
-};
-
-/// Foreground pixels [begin, end) of one image row.
-struct RowSpan {
-  std::int32_t row = 0;
-  std::int32_t begin = 0;
-  std::int32_t end = 0;
-};
-
-/// A model at a pose, seen by a camera. Empty contour and spans: not visible at all.
-struct Silhouette {
-  std::vector<ContourPoint> contour;
-  std::vector<RowSpan> spans;  ///< cut to the image, by rising row
-  Box box;                     ///< of the whole silhouette, not cut
-  double inside_share = 0;     ///< share of the silhouette's area inside the image, [0, 1]
 };
 
 /// The geometry of what is tracked (three cylinders for people, a box for other objects).
