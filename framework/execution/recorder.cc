@@ -1,5 +1,6 @@
 #include "framework/execution/recorder.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include "plaza/core/error.h"
@@ -9,8 +10,10 @@
 namespace plaza {
 namespace {
 
-// how much of a killed run's observations may be missing from the part that it leaves
+// how much of a killed run may be missing from the parts that it leaves
 constexpr std::chrono::seconds kFlushInterval{2};
+// tracks are written anew each time: rarer when that takes long, to cost at most this share
+constexpr int kFlushShare = 50;
 
 int slot_of(const ExecutionPlan& plan, const std::optional<Wire>& wire) {
   if (!wire) return -1;
@@ -53,17 +56,25 @@ void Recorder::add_tracks(BranchFiles& branch, const FrameState& state) {
 }
 
 void Recorder::add_frame(const FrameState& state) {
+  // before this frame is added: one that can't be flushed has not been done
+  if (const auto now = std::chrono::steady_clock::now(); now >= next_flush_) {
+    flush(state.frame);
+    const auto end = std::chrono::steady_clock::now();
+    next_flush_ = end + std::max<std::chrono::steady_clock::duration>(kFlushInterval,
+                                                                      kFlushShare * (end - now));
+  }
   for (BranchFiles& branch : branches_) {
     add_tracks(branch, state);
     if (branch.observations_slot < 0) continue;
     const PayloadPtr& payload = state.slots[static_cast<std::size_t>(branch.observations_slot)];
     if (payload) branch.observations->add(state.frame, dynamic_cast<const Observations&>(*payload));
   }
-  if (const auto now = std::chrono::steady_clock::now(); now >= next_flush_) {
-    for (BranchFiles& branch : branches_) {
-      if (branch.observations) branch.observations->flush();
-    }
-    next_flush_ = now + kFlushInterval;
+}
+
+void Recorder::flush(std::int64_t end_frame) {
+  for (BranchFiles& branch : branches_) {
+    if (branch.observations) branch.observations->flush();
+    if (branch.tracks) write_tracks_so_far(branch.folder, *branch.tracks, end_frame, scene_);
   }
 }
 

@@ -40,6 +40,8 @@ class Recorder {
     std::unique_ptr<ObservationsFile> observations;
   };
   void add_tracks(BranchFiles& branch, const FrameState& state);
+  /// Makes all up to `end_frame` survive the end of this process, in parts.
+  void flush(std::int64_t end_frame);
 
   const Scene& scene_;
   std::vector<BranchFiles> branches_;

@@ -9,6 +9,7 @@
 #include <set>
 #include <system_error>
 
+#include "framework/execution/disk_reserve.h"
 #include "framework/execution/evaluate.h"
 #include "framework/execution/frame_loop.h"
 #include "framework/execution/frame_reader.h"
@@ -32,6 +33,9 @@ namespace plaza {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
+
+// enough for the tracks of some hours in a few views
+constexpr std::uintmax_t kReservedBytes = 16 << 20;
 
 /// One run from its check to its last file.
 class Run {
@@ -134,6 +138,7 @@ class Run {
     write_summary(options_.output_folder, summary());
     report_.stop_reason.clear();
     write_file(options_.output_folder / "resolved.json", pipeline_.resolved_json().dump(2) + "\n");
+    reserve_.hold(options_.output_folder, kReservedBytes);
     recorder_ = std::make_unique<Recorder>(branches_, plan_, *scene_, options_.output_folder,
                                            options_.first_frame);
     draws_.assign(plan_.nodes.size(), false);
@@ -295,6 +300,7 @@ class Run {
   }
 
   void write() {
+    reserve_.release();
     attempt([this] {
       const std::vector<Artifact> files = recorder_->write(end_frame_);
       report_.artifacts.insert(report_.artifacts.end(), files.begin(), files.end());
@@ -332,6 +338,7 @@ class Run {
   const RunOptions& options_;
   const int threads_;
   const ModelCache cache_;
+  DiskReserve reserve_;
   Progress progress_;
 
   Assembly assembly_;

@@ -28,7 +28,8 @@ class ObservationsFile {
   void add(std::int64_t frame, const Observations& observations);
   /// Makes what was added survive the end of this process.
   void flush() { file_.flush(); }
-  void commit() { file_.commit(); }
+  /// Gives the file its name with what could be written, even when that is not all: throws then.
+  void commit();
   const std::filesystem::path& file() const { return file_.file(); }
 
  private:
@@ -38,9 +39,14 @@ class ObservationsFile {
 /// Writes tracks.ground.csv, `frame,id,x_m,y_m,heading_deg,score`, and for each camera
 /// tracks.<camera>.txt, MOTChallenge rows `frame,id,left,top,width,height,score,x,y,z` with the
 /// ground position in metres behind, of the frames before `end_frame`; by rising frame, then id.
-/// Lists the files.
+/// Lists the files. A file that can't be written whole (a full disk) keeps the rows that could be,
+/// the others are written all the same, and the first fault is thrown at the end.
 std::vector<Artifact> write_tracks(const std::filesystem::path& folder, const TrackStore& tracks,
                                    std::int64_t end_frame, const Scene& scene);
+
+/// Writes the same as NAME.part, each replaced in one step: what is left of a run that is killed.
+void write_tracks_so_far(const std::filesystem::path& folder, const TrackStore& tracks,
+                         std::int64_t end_frame, const Scene& scene);
 
 /// Takes away the contract's files, and parts of them, that an earlier run left in `folder`, so
 /// that no folder ever mixes two runs.

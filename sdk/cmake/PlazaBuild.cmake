@@ -18,7 +18,10 @@ set(PLAZA_PLUGIN_INSTALL_DIRECTORY ${CMAKE_INSTALL_LIBDIR}/plaza/plugins)
 
 find_program(PLAZA_CCACHE ccache)
 if(PLAZA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PLAZA_CCACHE})
+  # ccache asks for this word before it caches what uses a precompiled header: it trusts the header's
+  # content then, which is right here, where no header depends on macros of its users
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PLAZA_CCACHE})
 endif()
 
 add_library(plaza_warnings INTERFACE)
@@ -27,6 +30,21 @@ if(PLAZA_SANITIZE)
   add_compile_options(-fsanitize=${PLAZA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PLAZA_SANITIZE})
 endif()
+
+# What libraries and plugins precompile, half of the time of a clean build otherwise: the standard library and
+# the packages of the public headers, nothing of our own, so that no edit touches it.
+set(PLAZA_PRECOMPILED
+  <algorithm> <array> <atomic> <charconv> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream>
+  <limits> <map> <memory> <mutex> <numbers> <numeric> <optional> <set> <span> <sstream> <stdexcept> <string>
+  <string_view> <system_error> <thread> <unordered_map> <utility> <variant> <vector>
+  <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <nlohmann/json.hpp> <opencv2/core.hpp>)
+
+# plaza_precompile(TARGET...): for libraries of the tree, in which all code is position-independent in one way.
+function(plaza_precompile)
+  foreach(target IN LISTS ARGN)
+    target_precompile_headers(${target} REUSE_FROM plaza_precompiled)
+  endforeach()
+endfunction()
 
 include(PlazaOpenCV)
 include(PlazaPlugin)

@@ -19,6 +19,9 @@ function(plaza_add_plugin NAME)
     OUTPUT_NAME plaza_${target} PREFIX ""
     CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  if(COMMAND plaza_precompile)
+    plaza_precompile(plaza_${target})
+  endif()
   if(PLAZA_PLUGIN_OUTPUT_DIRECTORY)
     set_target_properties(plaza_${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${PLAZA_PLUGIN_OUTPUT_DIRECTORY}

@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -46,6 +48,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : file_(std::move(other.file_)),
       part_(std::move(other.part_)),
       buffer_(std::move(other.buffer_)),
+      record_ends_(std::move(other.record_ends_)),
       written_(other.written_),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
@@ -67,8 +70,9 @@ void OutputFile::fail(const char* action, int error) {
 
 void OutputFile::write(std::string_view record) {
   if (descriptor_ < 0) throw InternalError(file_.string() + " was committed before");
+  if (buffer_.size() >= kBufferBytes) flush();  // first, so that a record is taken or refused whole
   buffer_ += record;
-  if (buffer_.size() >= kBufferBytes) flush();
+  record_ends_.push_back(buffer_.size());
 }
 
 void OutputFile::flush() {
@@ -78,18 +82,27 @@ void OutputFile::flush() {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       const int error = errno;
-      // back to whole records; the buffer is dropped, for a later commit() must not fail over it
-      // again
+      // back to the last whole record; what stands behind it is kept for another try
+      const auto beyond = std::upper_bound(record_ends_.begin(), record_ends_.end(), done);
+      const std::size_t whole = beyond == record_ends_.begin() ? 0 : *std::prev(beyond);
+      written_ += whole;
+      buffer_.erase(0, whole);
+      record_ends_.erase(record_ends_.begin(), beyond);
+      for (std::size_t& end : record_ends_) end -= whole;
       if (::ftruncate(descriptor_, static_cast<off_t>(written_)) == 0) {
         ::lseek(descriptor_, static_cast<off_t>(written_), SEEK_SET);
       }
-      buffer_.clear();
       fail("write", error);
     }
     done += static_cast<std::size_t>(count);
   }
   written_ += buffer_.size();
+  drop_unwritten();
+}
+
+void OutputFile::drop_unwritten() {
   buffer_.clear();
+  record_ends_.clear();
 }
 
 void OutputFile::commit() {

@@ -125,8 +125,21 @@ TEST_F(OutputFileTest, KeepsWholeRecordsWhenTheDiskFillsUpWithinOne) {
   });
   EXPECT_THAT(message, HasSubstr("cannot write"));
   EXPECT_EQ(content(out.part()), "1,2\n3,4\n");
+  out.drop_unwritten();
   out.commit();
   EXPECT_EQ(content(folder_ / "rows.csv"), "1,2\n3,4\n");
+}
+
+TEST_F(OutputFileTest, TriesAgainWhatDidNotFit) {
+  OutputFile out(folder_ / "rows.csv");
+  with_file_limit(10, [&out] {
+    for (const char* row : {"1,2\n", "3,4\n", "5,6\n", "7,8\n"}) out.write(row);
+    out.flush();  // crosses the limit within the third of them
+  });
+  EXPECT_EQ(content(out.part()), "1,2\n3,4\n") << "as much as fits, not only earlier flushes";
+  out.write("9,0\n");
+  out.commit();
+  EXPECT_EQ(content(folder_ / "rows.csv"), "1,2\n3,4\n5,6\n7,8\n9,0\n");
 }
 
 TEST_F(OutputFileTest, CommitsOnce) {

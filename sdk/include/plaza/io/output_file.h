@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "plaza/core/export.h"
 
@@ -14,7 +15,8 @@ namespace plaza {
 /// file, or valid, and NAME.part ends with a whole record.
 ///
 /// Every failure (a full disk above all) is a UserError that names file, cause and remedy. What was
-/// written before a failure stays, cut to whole records, and can still be committed.
+/// written before a failure stays, cut to whole records; the rest is tried again by the next
+/// flush() or commit(), unless drop_unwritten() gives it up.
 class PLAZA_API OutputFile {
  public:
   /// Creates NAME.part, replacing one that an earlier process left. The folder must exist.
@@ -24,10 +26,13 @@ class PLAZA_API OutputFile {
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
 
-  /// Appends one record: a row, or any text that makes sense only as a whole. Buffered.
+  /// Appends one record: a row, or any text that makes sense only as a whole. Buffered. A
+  /// record is not taken when this throws.
   void write(std::string_view record);
   /// Hands all records to the operating system: they survive the death of this process.
   void flush();
+  /// Gives up the records that the operating system has not taken.
+  void drop_unwritten();
   /// Hands everything to the disk and gives the file its name. At most once.
   void commit();
 
@@ -40,8 +45,9 @@ class PLAZA_API OutputFile {
 
   std::filesystem::path file_;
   std::filesystem::path part_;
-  std::string buffer_;       // whole records only
-  std::size_t written_ = 0;  // bytes in NAME.part, whole records only
+  std::string buffer_;                    // whole records only
+  std::vector<std::size_t> record_ends_;  // in the buffer, one past each record's last byte
+  std::size_t written_ = 0;               // bytes in NAME.part, whole records only
   int descriptor_ = -1;
 };
 
