@@ -1,0 +1,283 @@
+#include "modalities/edges/edges.h"
+
+#include <algorithm>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+
+#include "plaza/core/error.h"
+
+namespace plaza::edges {
+namespace {
+
+constexpr double kGateSigmas = 3;  // D_max = 3 R, thesis 4.3.5
+
+const EdgeEvidence& edges_of(const Evidence& evidence) {
+  const auto* edges = dynamic_cast<const EdgeEvidence*>(&evidence);
+  if (edges == nullptr) throw std::invalid_argument("evidence of another modality");
+  return *edges;
+}
+
+const EdgeTemplates& contours_of(const TemplateBatch& templates, const EdgeEvidence& evidence) {
+  const auto* contours = dynamic_cast<const EdgeTemplates*>(&templates);
+  if (contours == nullptr) throw std::invalid_argument("templates of another modality");
+  if (contours->layout() != evidence.layout()) {
+    throw std::invalid_argument("templates and evidence are of different cameras");
+  }
+  return *contours;
+}
+
+/// Nothing at all to see: a covered lens, a camera that sends one colour.
+bool is_blank(const EdgeImage& image) {
+  double least = 0, most = 0;
+  cv::minMaxLoc(image.grey, &least, &most);
+  return least == most;
+}
+
+}  // namespace
+
+/// What a thread needs while it works on an image.
+struct Edges::Workshop {
+  explicit Workshop(std::shared_ptr<const PlaneLayout> layout) : transform(std::move(layout)) {}
+  EdgeImage image;
+  FastTransform transform;
+};
+
+Declaration<Edges::Options> Edges::declare() {
+  Parameters<Options> p;
+  p.choice("method", &Options::method, {"canny", "sobel"})
+      .meaning(
+          "what counts as an edge: Canny's thinned and connected ones, or every pixel with a "
+          "gradient above \"high_threshold\"")
+      .source("thesis 4.3.2");
+  p.value("low_threshold", &Options::low_threshold)
+      .above(0)
+      .meaning("gradient (3 x 3 Sobel, unscaled) above which Canny follows an edge");
+  p.value("high_threshold", &Options::high_threshold)
+      .above(0)
+      .meaning("gradient above which an edge begins; at least \"low_threshold\"");
+  p.value("blur_px", &Options::blur_px)
+      .unit("px")
+      .at_least(0)
+      .at_most(20)
+      .meaning("sigma of a Gaussian that smooths the image before; 0: none");
+  p.choice("background", &Options::background, {"people-free", "median", "none"})
+      .meaning(
+          "what the background's edges are learned from: the union of the edges of frames that "
+          "the source marks as people-free, the median of frames with people, or nothing, then "
+          "nothing is subtracted")
+      .source("people-free: thesis 4.3.2");
+  p.value("background_first", &Options::background_first)
+      .at_least(1)
+      .meaning("learn only from so many first frames; unset: from all");
+  p.value("background_every", &Options::background_every)
+      .at_least(1)
+      .meaning("learn from every n-th of them");
+  p.value("background_tolerance_px", &Options::background_tolerance_px)
+      .unit("px")
+      .at_least(0)
+      .at_most(50)
+      .meaning("how near an edge must be to one of the background to be taken for it")
+      .source("thesis 4.3.2: \"a few pixels\"");
+  p.value("background_sensitivity", &Options::background_sensitivity)
+      .above(0)
+      .at_most(1)
+      .meaning(
+          "factor on both thresholds for the median's edges, since edges near a threshold come "
+          "and go");
+  p.value("orientation_threshold", &Options::orientation_threshold)
+      .above(0)
+      .at_most(1)
+      .meaning(
+          "an edge near one of the background is removed when the cosine between their "
+          "gradients is above this (Th_s)")
+      .source("thesis (4.1)");
+  p.value("link_px", &Options::link_px)
+      .unit("px")
+      .at_least(0)
+      .meaning("by how many removed pixels a contour may grow at each end point; 0: no linking")
+      .source("thesis 4.3.2, Figure 4.5");
+  p.value("link_end_points", &Options::link_end_points)
+      .at_least(1)
+      .meaning("linking ends when fewer end points than this have moved in a round (Th_ep)")
+      .source("thesis 4.3.2");
+  p.value("directions", &Options::directions)
+      .at_least(1)
+      .at_most(180)
+      .meaning("number of directions of the distance transform, evenly over half a turn")
+      .source("thesis 4.3.3");
+  p.value("sigma_px", &Options::sigma_px)
+      .unit("px")
+      .above(0)
+      .at_most(80)
+      .meaning(
+          "standard deviation of an edge's distance from the contour (R); the validation gate "
+          "is three of it")
+      .source("thesis (4.3)");
+  p.value("min_visible", &Options::min_visible)
+      .at_least(0)
+      .at_most(1)
+      .meaning("least share of a silhouette inside the image; with less the view can't tell");
+  p.value("min_points", &Options::min_points)
+      .at_least(1)
+      .meaning("least number of contour points inside the image; with fewer the view can't tell");
+  p.choice("explains", &Options::explains, {"contour", "silhouette"})
+      .meaning(
+          "which edges an accepted person accounts for: those within the gate of its contour, "
+          "along the normals, or those inside the silhouette as well");
+  return Declaration<Options>(
+             "edges", "Foreground edges against silhouettes, by an oriented distance transform.")
+      .source("thesis 4.3.2-4.3.5, (4.1)-(4.3), Algorithm 1")
+      .input<FrameSet>("images of all views")
+      .output<EvidenceSet>("foreground edges and their distance transform")
+      .parameters(std::move(p));
+}
+
+Edges::Edges(const Options& options, const BuildContext& context)
+    : Modality(context),
+      options_(options),
+      edge_options_{.method = options.method,
+                    .low = options.low_threshold,
+                    .high = options.high_threshold,
+                    .blur_px = options.blur_px},
+      segmentation_{.orientation_threshold = options.orientation_threshold,
+                    .link_px = options.link_px,
+                    .link_end_points = options.link_end_points},
+      template_options_{.min_visible = options.min_visible,
+                        .min_points = options.min_points,
+                        .spans = options.explains == Explains::kSilhouette} {
+  if (options.low_threshold > options.high_threshold) {
+    Diagnostic fault;
+    fault.pointer = "/low_threshold";
+    fault.message = "must not be above \"high_threshold\"";
+    throw UserError(fault);
+  }
+  if (options.background != BackgroundMethod::kNone) {
+    BackgroundOptions background;
+    background.method = options.background;
+    background.first = options.background_first;
+    background.every = options.background_every;
+    background.tolerance_px = options.background_tolerance_px;
+    background.sensitivity = options.background_sensitivity;
+    background.edges = edge_options_;
+    learner_ = std::make_unique<BackgroundLearner>(background, context.scene);
+  }
+  const double gate_px = kGateSigmas * options.sigma_px;
+  for (const Camera& camera : context.scene->cameras) {
+    View view;
+    view.layout = std::make_shared<const PlaneLayout>(cv::Size(camera.width(), camera.height()),
+                                                      make_directions(options.directions, gate_px));
+    view.matcher = std::make_shared<const ContourMatcher>(view.layout, options.sigma_px, gate_px);
+    view.blocks = Pool<EvidenceBlock>::make();
+    views_.push_back(std::move(view));
+    workshops_.push_back(Pool<Workshop>::make());
+  }
+}
+
+Edges::~Edges() = default;
+
+Learner* Edges::learner() { return learner_.get(); }
+
+Pool<EvidenceBlock>::Handle Edges::take_block(const View& view) const {
+  return view.blocks->take([&] { return std::make_unique<EvidenceBlock>(*view.layout); });
+}
+
+const Edges::View& Edges::view_of(const EdgeEvidence& evidence) const {
+  for (const View& view : views_) {
+    if (view.layout == evidence.layout()) return view;
+  }
+  throw std::invalid_argument("evidence of another modality");
+}
+
+Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
+                                     const cv::Mat& /*previous*/) const {
+  const View& view = views_[camera];
+  std::shared_ptr<const ViewBackground> background;
+  if (learner_ != nullptr) {
+    background = learner_->view(camera);
+    if (background == nullptr) throw InternalError("the background has not been learned");
+  }
+  const auto workshop =
+      workshops_[camera]->take([&] { return std::make_unique<Workshop>(view.layout); });
+  find_edges(image, edge_options_, workshop->image);
+
+  auto block = take_block(view);
+  block->labels.clear();
+  const bool unknown = background != nullptr && !background->known;
+  segment(workshop->image, unknown ? nullptr : background.get(), segmentation_, block->labels,
+          block->points);
+  workshop->transform.run(block->points, block->planes);
+  const bool blank = unknown || is_blank(workshop->image);
+  return {std::make_shared<const EdgeEvidence>(view.layout, std::move(background), std::move(block),
+                                               blank),
+          {}};
+}
+
+std::unique_ptr<TemplateBatch> Edges::do_sample(const ShapeModel& model,
+                                                std::span<const Pose> poses,
+                                                std::size_t camera) const {
+  auto templates = std::make_unique<EdgeTemplates>(views_[camera].layout);
+  for (const Pose& pose : poses) {
+    templates->add(model.silhouette(pose, scene().cameras[camera]), template_options_);
+  }
+  return templates;
+}
+
+void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
+                     std::span<const std::uint32_t> which, std::span<double> log_likelihood) const {
+  const EdgeEvidence& edges = edges_of(evidence);
+  const EdgeTemplates& contours = contours_of(templates, edges);
+  const ContourMatcher& matcher = *view_of(edges).matcher;
+  const std::uint8_t* planes = edges.block().planes.data();
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    log_likelihood[i] = edges.blank() || !contours.tells(which[i])
+                            ? std::numeric_limits<double>::quiet_NaN()
+                            : matcher.log_likelihood(planes, contours, which[i]);
+  }
+}
+
+EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
+                              std::size_t index) const {
+  const EdgeEvidence& before = edges_of(*evidence);
+  const EdgeTemplates& contours = contours_of(templates, before);
+  const View& view = view_of(before);
+  const cv::Rect inside({}, view.layout->size());
+
+  auto block = take_block(view);
+  block->labels.copy(before.block().labels);
+  LabelImage& labels = block->labels;
+  const auto take_away = [&](int x, int y) {
+    std::uint8_t& label = labels.at(x, y);
+    if ((label & kForeground) != 0)
+      label = static_cast<std::uint8_t>((label & ~kForeground) | kExplained);
+  };
+  const std::uint32_t* point = contours.points(index).data();
+  for (std::size_t d = 0; d < contours.runs(index).size(); ++d) {
+    const Direction& direction = view.layout->directions()[d];
+    for (std::uint32_t i = 0; i < contours.runs(index)[d]; ++i, ++point) {
+      const cv::Point p = view.layout->pixel(d, *point);
+      const int major = direction.steep ? p.y : p.x, minor = direction.steep ? p.x : p.y;
+      for (int k = -direction.gate; k <= direction.gate; ++k) {
+        const int other = minor - direction.shift(major) + direction.shift(major + k);
+        const cv::Point q =
+            direction.steep ? cv::Point(other, major + k) : cv::Point(major + k, other);
+        if (inside.contains(q)) take_away(q.x, q.y);
+      }
+    }
+  }
+  for (const RowSpan& span : contours.spans(index)) {
+    for (int x = span.begin; x < span.end; ++x) take_away(x, span.row);
+  }
+  block->points.clear();
+  for (const EdgePoint p : before.block().points) {
+    if ((labels.at(p.x, p.y) & kForeground) != 0) block->points.push_back(p);
+  }
+  const std::size_t camera = static_cast<std::size_t>(&view - views_.data());
+  const auto workshop =
+      workshops_[camera]->take([&] { return std::make_unique<Workshop>(view.layout); });
+  workshop->transform.run(block->points, block->planes);
+  return std::make_shared<const EdgeEvidence>(before.layout(), before.background(),
+                                              std::move(block), before.blank());
+}
+
+}  // namespace plaza::edges

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "modalities/edges/background.h"
+#include "modalities/edges/evidence.h"
+#include "modalities/edges/templates.h"
+#include "plaza/component/declaration.h"
+
+namespace plaza::edges {
+
+/// What explain() takes away.
+enum class Explains {
+  kContour,     ///< edges within the gate of a contour point, along its normal
+  kSilhouette,  ///< and all edges inside the silhouette
+};
+
+/// Silhouettes compared with foreground edges through an oriented distance transform (thesis
+/// 4.3.2-4.3.5).
+class Edges final : public Modality {
+ public:
+  struct Options {
+    EdgeMethod method = EdgeMethod::kCanny;
+    double low_threshold = 60;
+    double high_threshold = 120;
+    double blur_px = 0;
+    BackgroundMethod background = BackgroundMethod::kPeopleFree;
+    std::optional<std::int64_t> background_first;
+    std::int64_t background_every = 1;
+    double background_tolerance_px = 2;
+    double background_sensitivity = 0.5;
+    double orientation_threshold = 0.9;
+    int link_px = 5;
+    int link_end_points = 1;
+    int directions = 12;
+    double sigma_px = 3;
+    double min_visible = 0.3;
+    int min_points = 20;
+    Explains explains = Explains::kContour;
+  };
+  static Declaration<Options> declare();
+  Edges(const Options& options, const BuildContext& context);
+  ~Edges() override;
+
+  Learner* learner() override;
+
+ private:
+  /// What belongs to one camera.
+  struct View {
+    std::shared_ptr<const PlaneLayout> layout;
+    std::shared_ptr<const ContourMatcher> matcher;
+    std::shared_ptr<Pool<EvidenceBlock>> blocks;
+  };
+  struct Workshop;
+
+  Prepared do_prepare(const cv::Mat& image, std::size_t camera,
+                      const cv::Mat& previous) const override;
+  std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model, std::span<const Pose> poses,
+                                           std::size_t camera) const override;
+  void do_match(const Evidence& evidence, const TemplateBatch& templates,
+                std::span<const std::uint32_t> which,
+                std::span<double> log_likelihood) const override;
+  EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
+                         std::size_t index) const override;
+
+  Pool<EvidenceBlock>::Handle take_block(const View& view) const;
+  const View& view_of(const EdgeEvidence& evidence) const;
+
+  Options options_;
+  EdgeOptions edge_options_;
+  SegmentationOptions segmentation_;
+  TemplateOptions template_options_;
+  std::unique_ptr<BackgroundLearner> learner_;  ///< null: nothing is subtracted
+  std::vector<View> views_;
+  std::vector<std::shared_ptr<Pool<Workshop>>> workshops_;  ///< by view
+};
+
+}  // namespace plaza::edges

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "modalities/edges/background.h"
+#include "modalities/edges/fast_transform.h"
+#include "modalities/edges/pool.h"
+#include "modalities/edges/segmentation.h"
+#include "plaza/data/evidence.h"
+
+namespace plaza::edges {
+
+/// The large parts of one image's evidence, used again when the evidence has died.
+struct EvidenceBlock {
+  explicit EvidenceBlock(const PlaneLayout& layout)
+      : planes(layout.bytes()), labels(layout.size()) {}
+  ByteBlock planes;               ///< the oriented distance transform
+  LabelImage labels;              ///< what became of each edge pixel
+  std::vector<EdgePoint> points;  ///< foreground edges
+};
+
+/// Foreground edges of one image and their oriented distance transform.
+class EdgeEvidence final : public Evidence {
+ public:
+  /// `background` null: none is subtracted. `blank`: the image shows nothing at all (one colour),
+  /// or its background is unknown; nothing can be told from it.
+  EdgeEvidence(std::shared_ptr<const PlaneLayout> layout,
+               std::shared_ptr<const ViewBackground> background, Pool<EvidenceBlock>::Handle block,
+               bool blank)
+      : layout_(std::move(layout)),
+        background_(std::move(background)),
+        block_(std::move(block)),
+        blank_(blank) {}
+
+  /// "background-edges", "all-edges", "segmented-edges", "linked-edges", "directions", "transform".
+  std::vector<Picture> pictures() const override;
+
+  const std::shared_ptr<const PlaneLayout>& layout() const { return layout_; }
+  const std::shared_ptr<const ViewBackground>& background() const { return background_; }
+  const EvidenceBlock& block() const { return *block_; }
+  bool blank() const { return blank_; }
+
+ private:
+  std::shared_ptr<const PlaneLayout> layout_;
+  std::shared_ptr<const ViewBackground> background_;
+  Pool<EvidenceBlock>::Handle block_;
+  bool blank_;
+};
+
+}  // namespace plaza::edges

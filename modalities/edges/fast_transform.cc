@@ -1,0 +1,131 @@
+#include "modalities/edges/fast_transform.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+namespace plaza::edges {
+namespace {
+
+constexpr std::size_t kMargin = 64;  // a cache line before the first plane and behind the last
+constexpr std::align_val_t kAlignment{64};
+
+/// At least one byte of padding, which stays 0, ends every row: what lies before a row and behind
+/// it is "no edge", so that lines that leave the image need no test.
+std::uint32_t padded(int columns) {
+  return (static_cast<std::uint32_t>(columns) / kSweepBytes + 1) * kSweepBytes;
+}
+
+}  // namespace
+
+PlaneLayout::PlaneLayout(cv::Size size, std::vector<Direction> directions)
+    : size_(size), directions_(std::move(directions)) {
+  if (size.width < 1 || size.height < 1 || size.width > 32767 || size.height > 32767) {
+    throw std::invalid_argument("a transform needs an image of 1 to 32767 rows and columns");
+  }
+  if (directions_.empty()) throw std::invalid_argument("a transform needs a direction");
+  wide_stride_ = padded(size.width);
+  tall_stride_ = padded(size.height);
+  std::size_t next = kMargin;
+  for (const Direction& d : directions_) {
+    plane_begin_.push_back(static_cast<std::uint32_t>(next));
+    next += d.steep ? std::size_t{wide_stride_} * static_cast<std::size_t>(size.height)
+                    : std::size_t{tall_stride_} * static_cast<std::size_t>(size.width);
+  }
+  bytes_ = next + kMargin;
+  if (bytes_ > UINT32_MAX) throw std::invalid_argument("a transform of more than 4 GB");
+}
+
+cv::Point PlaneLayout::pixel(std::size_t direction, std::uint32_t offset) const {
+  const std::uint32_t inside = offset - plane_begin_[direction];
+  const bool steep = directions_[direction].steep;
+  const std::uint32_t stride = steep ? wide_stride_ : tall_stride_;
+  const int row = static_cast<int>(inside / stride), column = static_cast<int>(inside % stride);
+  return steep ? cv::Point(column, row) : cv::Point(row, column);
+}
+
+ByteBlock::ByteBlock(std::size_t bytes)
+    : size_(bytes), bytes_(static_cast<std::uint8_t*>(::operator new(bytes, kAlignment))) {
+  std::memset(bytes_.get(), 0, bytes);
+}
+void ByteBlock::Free::operator()(std::uint8_t* p) const { ::operator delete(p, kAlignment); }
+
+void append_points(const cv::Mat1b& edges, std::vector<EdgePoint>& points) {
+  constexpr int kWord = sizeof(std::uint64_t);
+  for (int y = 0; y < edges.rows; ++y) {
+    const std::uint8_t* row = edges[y];
+    const auto look = [&](int begin, int end) {
+      for (int x = begin; x < end; ++x) {
+        if (row[x] != 0) {
+          points.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
+        }
+      }
+    };
+    int x = 0;
+    for (; x + kWord <= edges.cols; x += kWord) {
+      std::uint64_t word;
+      std::memcpy(&word, row + x, kWord);
+      if (word != 0) look(x, x + kWord);  // most are 0
+    }
+    look(x, edges.cols);
+  }
+}
+
+FastTransform::FastTransform(std::shared_ptr<const PlaneLayout> layout, Sweep sweep)
+    : layout_(std::move(layout)),
+      sweep_(sweep),
+      wide_(std::size_t{layout_->wide_stride()} * static_cast<std::size_t>(layout_->size().height)),
+      tall_(std::size_t{layout_->tall_stride()} * static_cast<std::size_t>(layout_->size().width)) {
+  const cv::Size size = layout_->size();
+  longest_ = static_cast<std::size_t>(std::max(size.width, size.height));
+  drift_.resize(layout_->directions().size() * longest_);
+  for (std::size_t d = 0; d < layout_->directions().size(); ++d) {
+    const Direction& direction = layout_->directions()[d];
+    for (std::size_t row = 1; row < longest_; ++row) {
+      const int r = static_cast<int>(row);
+      drift_[d * longest_ + row] =
+          static_cast<std::int8_t>(direction.shift(r) - direction.shift(r - 1));
+    }
+  }
+}
+
+void FastTransform::run(std::span<const EdgePoint> edges, ByteBlock& block) {
+  const std::size_t wide = layout_->wide_stride(), tall = layout_->tall_stride();
+  const auto draw = [&](std::uint8_t value) {
+    for (const EdgePoint p : drawn_) {
+      wide_.data()[static_cast<std::size_t>(p.y) * wide + static_cast<std::size_t>(p.x)] = value;
+      tall_.data()[static_cast<std::size_t>(p.x) * tall + static_cast<std::size_t>(p.y)] = value;
+    }
+  };
+  draw(0);  // what the last call drew is a twentieth of the image
+  drawn_.assign(edges.begin(), edges.end());
+  draw(255);
+  sweep_planes(block);
+}
+
+void FastTransform::run(const cv::Mat1b& edges, ByteBlock& block) {
+  if (edges.size() != layout_->size()) throw std::invalid_argument("edges of another size");
+  found_.clear();
+  append_points(edges, found_);
+  run(found_, block);
+}
+
+void FastTransform::sweep_planes(ByteBlock& block) {
+  if (block.size() < layout_->bytes()) throw std::invalid_argument("block is too small");
+  const cv::Size size = layout_->size();
+  for (std::size_t d = 0; d < layout_->directions().size(); ++d) {
+    const Direction& direction = layout_->directions()[d];
+    SweepTask task;
+    task.plane = block.data() + layout_->plane_begin(d);
+    task.edges = direction.steep ? wide_.data() : tall_.data();
+    task.rows = direction.steep ? size.height : size.width;
+    task.columns = direction.steep ? size.width : size.height;
+    task.stride = direction.steep ? layout_->wide_stride() : layout_->tall_stride();
+    task.drift = drift_.data() + d * longest_;
+    task.peak = static_cast<std::uint8_t>(direction.gate + 1);
+    sweep_(task);
+  }
+}
+
+}  // namespace plaza::edges
