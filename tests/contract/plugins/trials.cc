@@ -145,12 +145,16 @@ const std::map<std::string, Maker>& table() {
        }},
       {"cylinder", [](const fs::path&) { return defaults(); }},
       {"box-parallelepiped", [](const fs::path&) { return defaults(); }},
-      // modalities
       {"edges",
        [](const fs::path&) {
          return std::vector<Trial>{Trial(), trial("median", {{"background", "median"}}),
                                    trial("sobel", {{"method", "sobel"}, {"background", "none"}}),
                                    trial("silhouette", {{"explains", "silhouette"}})};
+       }},
+      {"color",
+       [](const fs::path&) {
+         return std::vector<Trial>{Trial(), trial("median", {{"background", "median"}}),
+                                   trial("one frame", {{"background_first", 1}})};
        }},
       // detectors
       {"boxes", [](const fs::path&) { return defaults(); }},

@@ -1,0 +1,288 @@
+#include "modalities/color/color.h"
+
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "modalities/color/opencl_segmenter.h"
+#include "plaza/core/parallel.h"
+
+namespace plaza {
+namespace {
+
+using color::ColorEvidence;
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// What the scene's static occluders hide in this view.
+std::shared_ptr<const ColorEvidence::Blind> occluded(const Scene& scene, const Camera& camera) {
+  auto blind = std::make_shared<ColorEvidence::Blind>();
+  for (const StaticOccluder& occluder : scene.occluders) {
+    if (occluder.camera != camera.name()) continue;
+    if (blind->mask.empty()) {
+      blind->mask = cv::Mat(camera.height(), camera.width(), CV_8UC1, cv::Scalar(0));
+    }
+    std::vector<cv::Point> corners;
+    for (const Eigen::Vector2d& p : occluder.polygon_px) {
+      corners.emplace_back(static_cast<int>(std::lround(p.x())),
+                           static_cast<int>(std::lround(p.y())));
+    }
+    cv::fillPoly(blind->mask, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255));
+  }
+  if (!blind->mask.empty()) blind->counts = color::RowCounts(blind->mask);
+  return blind;
+}
+
+}  // namespace
+
+ColorModality::ColorModality(const Options& options, const BuildContext& context)
+    : Modality(context),
+      options_(options),
+      learners_(context.scene->cameras.size(),
+                color::BackgroundLearner(static_cast<std::size_t>(options.background_samples))) {}
+
+Diagnostics ColorModality::do_check() const {
+  if (options_.device == Device::kOpencl && color::opencl_device().empty()) {
+    Diagnostic fault;
+    fault.pointer = "/device";
+    fault.message =
+        "there is no OpenCL device: install a driver (on Debian pocl-opencl-icd runs on any "
+        "processor, with OPENCV_OPENCL_DEVICE=:CPU:) or use \"cpu\"";
+    return {fault};
+  }
+  return {};
+}
+
+Modality::Prepared ColorModality::do_prepare(const cv::Mat& image, std::size_t camera,
+                                             const cv::Mat& previous) const {
+  if (views_.empty()) throw InternalError("the background has not been learned yet");
+  const View& view = views_[camera];
+  if (!view.segmenter) {
+    return {std::make_shared<ColorEvidence>(ColorEvidence::State::kNoBackground, image,
+                                            color::Segmentation(), nullptr, view.blind),
+            cv::Mat()};
+  }
+  color::Segmentation segmentation = view.segmenter->segment(image, previous);
+  const double share =
+      cv::countNonZero(segmentation.mask) / static_cast<double>(segmentation.mask.total());
+  const bool usable = share <= options_.most_foreground;
+  const cv::Mat mask = usable ? segmentation.mask : cv::Mat();
+  return {std::make_shared<ColorEvidence>(
+              usable ? ColorEvidence::State::kUsable : ColorEvidence::State::kOtherBackground,
+              image, std::move(segmentation), view.background, view.blind),
+          mask};
+}
+
+std::unique_ptr<TemplateBatch> ColorModality::do_sample(const ShapeModel& model,
+                                                        std::span<const Pose> poses,
+                                                        std::size_t camera) const {
+  const Camera& c = scene().cameras[camera];
+  auto batch = std::make_unique<color::SpanTemplates>(cv::Size(c.width(), c.height()));
+  for (const Pose& pose : poses) batch->add(model.silhouette(pose, c), options_.ring);
+  return batch;
+}
+
+void ColorModality::do_match(const Evidence& evidence, const TemplateBatch& templates,
+                             std::span<const std::uint32_t> which,
+                             std::span<double> log_likelihood) const {
+  const auto& seen = static_cast<const ColorEvidence&>(evidence);
+  const auto& batch = static_cast<const color::SpanTemplates&>(templates);
+  const double scale = -0.5 / (options_.occupancy_sigma * options_.occupancy_sigma);
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const auto occupancy = seen.occupancy(batch, which[i], options_.least_visible);
+    log_likelihood[i] = occupancy ? scale * (1 - *occupancy) * (1 - *occupancy)
+                                  : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+EvidencePtr ColorModality::do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
+                                      std::size_t index) const {
+  const auto& seen = static_cast<const ColorEvidence&>(*evidence);
+  if (seen.state() != ColorEvidence::State::kUsable) return evidence;
+  return seen.without(static_cast<const color::SpanTemplates&>(templates), index);
+}
+
+std::optional<LearningPlan> ColorModality::do_plan() const {
+  LearningPlan plan;
+  plan.people_free_only = options_.background == Learning::kPeopleFree;
+  plan.first = options_.background_first;
+  plan.every = options_.background_every;
+  return plan;
+}
+
+void ColorModality::do_learn(const FrameSet& frames) {
+  for (std::size_t c = 0; c < frames.views.size(); ++c) {
+    const cv::Mat& image = frames.views[c];
+    if (image.empty()) continue;
+    const Camera& camera = scene().cameras.at(c);
+    if (image.cols != camera.width() || image.rows != camera.height() || image.type() != CV_8UC3) {
+      UserError error("image is " + size_text(image.cols, image.rows) +
+                      ", the calibration of camera '" + camera.name() + "' is for " +
+                      size_text(camera.width(), camera.height()) + " BGR");
+      error.add_context({.component = {}, .frame = {}, .camera = camera.name()});
+      throw error;
+    }
+    learners_[c].add(image);
+  }
+}
+
+void ColorModality::do_finish(std::int64_t seen) {
+  std::size_t known = 0;
+  std::vector<color::Background> backgrounds(learners_.size());
+  for (std::size_t c = 0; c < learners_.size(); ++c) {
+    backgrounds[c] = learners_[c].background();
+    known += backgrounds[c].empty() ? 0 : 1;
+    learners_[c] = color::BackgroundLearner(static_cast<std::size_t>(options_.background_samples));
+  }
+  if (known == 0) {
+    std::string text = "the background needs at least one frame with an image, but ";
+    text += seen == 0 && options_.background == Learning::kPeopleFree
+                ? "the source marks none as free of people; mark some, or learn from frames with "
+                  "people (\"background\": \"median\")"
+                : "of " + std::to_string(seen) + " frames none has one";
+    throw UserError(text);
+  }
+  use(std::move(backgrounds));
+}
+
+void ColorModality::do_save(std::ostream& out) const {
+  std::vector<color::Background> backgrounds;
+  for (const View& view : views_) {
+    backgrounds.push_back(view.background ? *view.background : color::Background());
+  }
+  color::save_backgrounds(backgrounds, out);
+}
+
+void ColorModality::do_load(std::istream& in) {
+  std::vector<color::Background> backgrounds = color::load_backgrounds(in);
+  if (backgrounds.size() != scene().cameras.size()) {
+    throw UserError("the stored background is of " + std::to_string(backgrounds.size()) +
+                    " views, the scene has " + std::to_string(scene().cameras.size()) +
+                    "; it has to be learned again");
+  }
+  for (std::size_t c = 0; c < backgrounds.size(); ++c) {
+    const cv::Mat& image = backgrounds[c].image;
+    const Camera& camera = scene().cameras[c];
+    if (image.empty() || (image.cols == camera.width() && image.rows == camera.height())) continue;
+    throw UserError("the stored background of camera '" + camera.name() + "' is " +
+                    size_text(image.cols, image.rows) + ", the camera is " +
+                    size_text(camera.width(), camera.height()) + "; it has to be learned again");
+  }
+  use(std::move(backgrounds));
+}
+
+void ColorModality::use(std::vector<color::Background> backgrounds) {
+  const color::CriterionOptions criterion_options{.darkness = options_.darkness,
+                                                  .least_noise_px = options_.least_noise};
+  const color::LabelFieldOptions field{.threshold = options_.threshold,
+                                       .neighbourhood = options_.neighbourhood,
+                                       .previous = options_.previous,
+                                       .iterations = options_.iterations};
+  std::vector<View> views(backgrounds.size());
+  parallel_for(views.size(), [&](std::size_t c) {
+    View& view = views[c];
+    view.blind = occluded(scene(), scene().cameras[c]);
+    if (backgrounds[c].empty()) return;
+    const color::Criterion criterion(backgrounds[c], criterion_options);
+    view.segmenter = options_.device == Device::kOpencl
+                         ? color::make_opencl_segmenter(backgrounds[c], criterion, field)
+                         : color::make_cpu_segmenter(criterion, field);
+    view.background = std::make_shared<color::Background>(std::move(backgrounds[c]));
+  });
+  views_ = std::move(views);
+}
+
+Declaration<ColorModality::Options> ColorModality::declare() {
+  const char* const griesser = "Griesser et al. 2005";
+  Parameters<Options> p;
+  p.value("darkness", &Options::darkness)
+      .unit("grey levels")
+      .at_least(0)
+      .at_most(2000)
+      .meaning(
+          "constant appended to the colours of a window: 0 is blind to dark clothes, large "
+          "values see shadows")
+      .source(griesser);
+  p.value("least_noise", &Options::least_noise)
+      .unit("grey levels")
+      .above(0)
+      .at_most(255)
+      .meaning("standard deviation of a pixel's channel that is assumed at least");
+  p.value("threshold", &Options::threshold)
+      .at_least(0)
+      .at_most(500)
+      .meaning(
+          "strength of change from which a pixel is foreground when half of its surroundings "
+          "are; noise alone gives 1 on the average")
+      .source(griesser);
+  p.value("neighbourhood", &Options::neighbourhood)
+      .at_least(0)
+      .at_most(50)
+      .meaning("how much each of 8 foreground neighbours lowers the threshold")
+      .source(griesser);
+  p.value("previous", &Options::previous)
+      .at_least(0)
+      .at_most(20)
+      .meaning(
+          "how much each foreground pixel of the 3 x 3 window in the previous frame's mask "
+          "lowers the threshold")
+      .source(griesser);
+  p.value("iterations", &Options::iterations)
+      .at_least(1)
+      .at_most(100)
+      .meaning("most rounds in which the labels are solved")
+      .source(griesser);
+  p.value("most_foreground", &Options::most_foreground)
+      .above(0)
+      .at_most(1)
+      .meaning(
+          "share of foreground above which a view's background is taken for invalid (light or "
+          "camera changed) and the view can't tell");
+  p.value("ring", &Options::ring)
+      .at_least(0)
+      .at_most(1)
+      .meaning(
+          "width of the ring around a silhouette, as a share of the silhouette's height; at "
+          "least one pixel");
+  p.value("occupancy_sigma", &Options::occupancy_sigma)
+      .above(0)
+      .at_most(10)
+      .meaning("standard deviation of a person's occupancy from 1");
+  p.value("least_visible", &Options::least_visible)
+      .at_least(0)
+      .at_most(1)
+      .meaning(
+          "share of a silhouette that must be in the image, unhidden and unexplained, for the "
+          "view to tell");
+  p.choice("background", &Options::background, {"people-free", "median"})
+      .meaning(
+          "frames that the background is learned from: all, as medians over time, or only "
+          "those that the source marks as free of people");
+  p.value("background_every", &Options::background_every)
+      .unit("frames")
+      .at_least(1)
+      .meaning("learn from every n-th of them");
+  p.value("background_first", &Options::background_first)
+      .unit("frames")
+      .at_least(1)
+      .meaning("learn only from frames before this one; not set: from the whole recording");
+  p.value("background_samples", &Options::background_samples)
+      .unit("frames")
+      .at_least(1)
+      .at_most(4096)
+      .meaning("most frames kept in memory while learning; of more, an even selection");
+  p.choice("device", &Options::device, {"cpu", "opencl"})
+      .meaning("what segments: one core with its vector instructions, or OpenCV's OpenCL device");
+  Declaration<Options> d("color", "Foreground by colour, and how it fills silhouettes.");
+  return d.source("thesis 5.4.1; Griesser et al. 2005")
+      .input<FrameSet>("images of all views")
+      .output<EvidenceSet>("foreground, counted along rows, with its Lab image")
+      .output<ForegroundMask>("foreground of all views; empty where the view can't tell")
+      .memory()
+      .parameters(std::move(p));
+}
+
+}  // namespace plaza

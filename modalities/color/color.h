@@ -1,0 +1,90 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modalities/color/background.h"
+#include "modalities/color/color_evidence.h"
+#include "modalities/color/segmenter.h"
+#include "plaza/component/declaration.h"
+#include "plaza/component/learner.h"
+
+namespace plaza {
+
+/// Foreground by colour, and how well silhouettes are filled with it.
+///
+/// *prepare* segments an image by the extended collinearity criterion and a Markov random field
+/// (thesis 5.4.1; Griesser et al. 2005), against a background that was learned before the stream.
+/// *sample* turns silhouettes into spans with a ring around them.
+///
+/// *match* compares occupancy, the share of foreground inside the silhouette less its share in the
+/// ring. Its model: where a person stands, the occupancy is 1 less a half-Gaussian deviation,
+///     log L = -(1 - occupancy)^2 / (2 occupancy_sigma^2),
+/// 0 for a filled silhouette in an empty surrounding, -1 / (2 sigma^2) for background (occupancy 0)
+/// as well as for a place amid a larger foreground, and less where the ring is fuller than the
+/// inside. Like (4.3) it doesn't depend on the silhouette's size. It is NaN when the view can't
+/// tell: background never learned or no longer valid, too small a part of the silhouette in the
+/// image, unhidden by static occluders and unexplained.
+///
+/// *explain* takes the foreground inside a silhouette away and makes its pixels count nowhere.
+class ColorModality final : public Modality, private Learner {
+ public:
+  enum class Learning { kPeopleFree, kMedian };
+  enum class Device { kCpu, kOpencl };
+  struct Options {
+    double darkness = 100;
+    double least_noise = 2.5;
+    double threshold = 4;
+    double neighbourhood = 0.5;
+    double previous = 0.2;
+    int iterations = 4;
+    double most_foreground = 0.7;
+    double ring = 0.08;
+    double occupancy_sigma = 0.35;
+    double least_visible = 0.3;
+    Learning background = Learning::kPeopleFree;
+    std::int64_t background_every = 5;
+    std::optional<std::int64_t> background_first;
+    int background_samples = 128;
+    Device device = Device::kCpu;
+  };
+  static Declaration<Options> declare();
+  ColorModality(const Options& options, const BuildContext& context);
+
+  Learner* learner() override { return this; }
+
+ private:
+  struct View {
+    std::shared_ptr<const color::Background> background;  ///< null: unknown
+    std::unique_ptr<color::Segmenter> segmenter;
+    std::shared_ptr<const color::ColorEvidence::Blind> blind;  ///< behind static occluders
+  };
+
+  Diagnostics do_check() const override;
+
+  Prepared do_prepare(const cv::Mat& image, std::size_t camera,
+                      const cv::Mat& previous) const override;
+  std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model, std::span<const Pose> poses,
+                                           std::size_t camera) const override;
+  void do_match(const Evidence& evidence, const TemplateBatch& templates,
+                std::span<const std::uint32_t> which,
+                std::span<double> log_likelihood) const override;
+  EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
+                         std::size_t index) const override;
+
+  std::optional<LearningPlan> do_plan() const override;
+  void do_learn(const FrameSet& frames) override;
+  void do_finish(std::int64_t seen) override;
+  void do_save(std::ostream& out) const override;
+  void do_load(std::istream& in) override;
+
+  void use(std::vector<color::Background> backgrounds);
+
+  Options options_;
+  std::vector<color::BackgroundLearner> learners_;  ///< [camera]
+  std::vector<View> views_;                         ///< [camera]; empty until learned or loaded
+};
+
+}  // namespace plaza

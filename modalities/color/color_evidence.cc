@@ -1,0 +1,99 @@
+#include "modalities/color/color_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+namespace plaza::color {
+namespace {
+
+cv::Mat coloured(const cv::Mat& grey) {
+  cv::Mat bgr;
+  cv::cvtColor(grey, bgr, cv::COLOR_GRAY2BGR);
+  return bgr;
+}
+
+/// Logarithmic, so that noise (1) is dark, the usual thresholds are grey and full change is white.
+cv::Mat strength_picture(const cv::Mat& strength) {
+  cv::Mat grey(strength.size(), CV_8UC1);
+  const double scale = 255 / std::log2(1.0 + 65535.0 / kStepsPerUnit);
+  for (int y = 0; y < strength.rows; ++y) {
+    const auto* const in = strength.ptr<std::uint16_t>(y);
+    auto* const out = grey.ptr<uchar>(y);
+    for (int x = 0; x < strength.cols; ++x) {
+      const double units = static_cast<double>(in[x]) / kStepsPerUnit;
+      out[x] = static_cast<uchar>(std::lround(scale * std::log2(1.0 + units)));
+    }
+  }
+  return coloured(grey);
+}
+
+}  // namespace
+
+ColorEvidence::ColorEvidence(State state, cv::Mat image, Segmentation segmentation,
+                             std::shared_ptr<const Background> background,
+                             std::shared_ptr<const Blind> blind)
+    : state_(state),
+      image_(std::move(image)),
+      segmentation_(std::move(segmentation)),
+      background_(std::move(background)),
+      blind_(std::move(blind)) {
+  if (state_ != State::kUsable) return;
+  counted_ = segmentation_.mask;
+  if (!blind_->mask.empty()) {
+    counted_ = segmentation_.mask.clone();
+    counted_.setTo(cv::Scalar(0), blind_->mask);
+  }
+  counts_ = RowCounts(counted_);
+}
+
+const cv::Mat& ColorEvidence::lab() const {
+  std::call_once(lab_once_, [&] { cv::cvtColor(image_, lab_, cv::COLOR_BGR2Lab); });
+  return lab_;
+}
+
+std::vector<Picture> ColorEvidence::pictures() const {
+  std::vector<Picture> pictures;
+  if (background_) {
+    pictures.push_back({"background", "learned background", background_->image.clone()});
+  }
+  if (!segmentation_.strength.empty()) {
+    pictures.push_back({"change", "strength of change against the background",
+                        strength_picture(segmentation_.strength)});
+  }
+  if (!segmentation_.mask.empty()) {
+    pictures.push_back(
+        {"foreground",
+         state_ == State::kOtherBackground ? "foreground (not used: nearly all)" : "foreground",
+         coloured(segmentation_.mask)});
+  }
+  return pictures;
+}
+
+std::optional<double> ColorEvidence::occupancy(const SpanTemplates& templates, std::size_t index,
+                                               double least_visible) const {
+  if (state_ != State::kUsable) return std::nullopt;
+  return color::occupancy(templates, index, counts_, blind_->counts, least_visible);
+}
+
+std::shared_ptr<const ColorEvidence> ColorEvidence::without(const SpanTemplates& templates,
+                                                            std::size_t index) const {
+  auto rest_blind = std::make_shared<Blind>();
+  rest_blind->mask =
+      blind_->mask.empty() ? cv::Mat(image_.size(), CV_8UC1, cv::Scalar(0)) : blind_->mask.clone();
+  const SpanTemplate& t = templates.at(index);
+  for (std::uint32_t i = t.inner; i < t.outer; ++i) {
+    const int stride = image_.cols + 1;
+    const CountSpan& s = templates.span(i);
+    const int row = static_cast<int>(s.begin) / stride;
+    const int begin = static_cast<int>(s.begin) % stride;
+    const int length = static_cast<int>(s.end - s.begin);
+    std::fill_n(rest_blind->mask.ptr<uchar>(row) + begin, length, uchar{255});
+  }
+  rest_blind->counts = RowCounts(rest_blind->mask);
+  return std::make_shared<ColorEvidence>(state_, image_, segmentation_, background_,
+                                         std::move(rest_blind));
+}
+
+}  // namespace plaza::color

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "modalities/color/background.h"
+#include "modalities/color/occupancy.h"
+#include "modalities/color/segmenter.h"
+#include "plaza/data/evidence.h"
+
+namespace plaza::color {
+
+/// Foreground of one image, ready to be counted in silhouettes. Immutable, but for the Lab image,
+/// which is made when it is first asked for.
+class ColorEvidence final : public Evidence {
+ public:
+  /// Pixels that count nowhere: static occluders, later what accepted people explain.
+  struct Blind {
+    cv::Mat mask;  ///< 8-bit, 0 or 255; empty: no pixel
+    RowCounts counts;
+  };
+  enum class State {
+    kUsable,
+    kNoBackground,     ///< this view was never learned
+    kOtherBackground,  ///< nearly all is foreground: lights, exposure or the camera have changed
+  };
+
+  /// Neither matrix is copied or written to. `background` may be null where there is none.
+  ColorEvidence(State state, cv::Mat image, Segmentation segmentation,
+                std::shared_ptr<const Background> background, std::shared_ptr<const Blind> blind);
+
+  State state() const { return state_; }
+  const cv::Mat& mask() const {
+    return segmentation_.mask;
+  }  ///< the segmentation's, 8-bit, 0 or 255
+  const cv::Mat& strength() const { return segmentation_.strength; }  ///< 16-bit, 64 steps are 1
+  /// 8-bit CIE-Lab (OpenCV's scaling: L * 255 / 100, a + 128, b + 128), of the image's size.
+  const cv::Mat& lab() const;
+  std::vector<Picture> pictures() const override;
+
+  /// See plaza::color::occupancy(); nothing when the evidence isn't usable either.
+  std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
+                                  double least_visible) const;
+  /// The evidence without the foreground inside a template, whose pixels count nowhere from then
+  /// on.
+  std::shared_ptr<const ColorEvidence> without(const SpanTemplates& templates,
+                                               std::size_t index) const;
+
+ private:
+  State state_;
+  cv::Mat image_;
+  Segmentation segmentation_;
+  std::shared_ptr<const Background> background_;
+  std::shared_ptr<const Blind> blind_;
+  cv::Mat counted_;  ///< foreground that counts
+  RowCounts counts_;
+  mutable std::once_flag lab_once_;
+  mutable cv::Mat lab_;
+};
+
+}  // namespace plaza::color

@@ -1,0 +1,156 @@
+// Counting by look-ups against counting pixel by pixel.
+#include "modalities/color/occupancy.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <random>
+
+namespace plaza::color {
+namespace {
+
+const cv::Size kImage(50, 40);
+
+cv::Mat random_mask(std::uint32_t seed, int percent) {
+  std::mt19937 random(seed);
+  cv::Mat mask(kImage, CV_8UC1);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      mask.at<uchar>(y, x) =
+          static_cast<uchar>(static_cast<int>(random() % 100) < percent ? 255 : 0);
+    }
+  }
+  return mask;
+}
+
+cv::Mat painted(const std::vector<RowSpan>& spans) {
+  cv::Mat mask(kImage, CV_8UC1, cv::Scalar(0));
+  for (const RowSpan& s : spans) {
+    for (int x = s.begin; x < s.end; ++x) mask.at<uchar>(s.row, x) = 255;
+  }
+  return mask;
+}
+
+/// A blob of one or two spans per row, possibly cut by the image's border.
+Silhouette random_silhouette(std::mt19937& random) {
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  Silhouette s;
+  const int top = below(kImage.height);
+  const int bottom = std::min(top + 1 + below(25), kImage.height);
+  for (int row = top; row < bottom; ++row) {
+    const int begin = below(kImage.width - 12);
+    s.spans.push_back({row, begin, begin + 1 + below(5)});
+    if (below(2) == 0) s.spans.push_back({row, begin + 7, begin + 8 + below(4)});
+  }
+  s.box = {0, static_cast<double>(top), 10, static_cast<double>(bottom - top)};
+  s.inside_share = 1;
+  return s;
+}
+
+std::optional<double> brute_force(const Silhouette& s, int radius, const cv::Mat& foreground,
+                                  const cv::Mat& explained, double least_visible) {
+  const cv::Mat inside = painted(s.spans);
+  double in = 0, in_set = 0, ring = 0, ring_set = 0, full = 0;
+  for (int y = 0; y < kImage.height; ++y) {
+    for (int x = 0; x < kImage.width; ++x) {
+      full += inside.at<uchar>(y, x) != 0;
+      if (explained.at<uchar>(y, x) != 0) continue;
+      bool near = false;
+      for (int v = std::max(y - radius, 0); v <= std::min(y + radius, kImage.height - 1); ++v) {
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, kImage.width - 1); ++u) {
+          near = near || inside.at<uchar>(v, u) != 0;
+        }
+      }
+      const bool set = foreground.at<uchar>(y, x) != 0;
+      if (inside.at<uchar>(y, x) != 0) {
+        ++in;
+        in_set += set;
+      } else if (near) {
+        ++ring;
+        ring_set += set;
+      }
+    }
+  }
+  full /= s.inside_share;
+  if (in == 0 || in < least_visible * full) return std::nullopt;
+  return in_set / in - (ring > 0 ? ring_set / ring : 0);
+}
+
+TEST(OccupancyTest, EqualsCountingPixelByPixel) {
+  std::mt19937 random(5);
+  int told = 0, untold = 0;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const Silhouette s = random_silhouette(random);
+    const double ring = 0.05 + 0.1 * (i % 4);
+    const int radius = std::max(1, static_cast<int>(std::lround(ring * s.box.height)));
+    SpanTemplates templates(kImage);
+    templates.add(random_silhouette(random), ring);
+    templates.add(s, ring);
+    const cv::Mat explained = random_mask(i + 1000, i % 3 == 0 ? 0 : 60);
+    cv::Mat foreground = random_mask(i, 40);
+    foreground.setTo(cv::Scalar(0), explained);
+    const auto expected = brute_force(s, radius, foreground, explained, 0.4);
+    const auto actual =
+        occupancy(templates, 1, RowCounts(foreground),
+                  cv::countNonZero(explained) == 0 ? RowCounts() : RowCounts(explained), 0.4);
+    ASSERT_EQ(actual.has_value(), expected.has_value()) << i;
+    if (actual) {
+      EXPECT_NEAR(*actual, *expected, 1e-12) << i;
+    }
+    ++(actual ? told : untold);
+  }
+  EXPECT_GT(told, 50);
+  EXPECT_GT(untold, 50);
+}
+
+TEST(OccupancyTest, PartsOutsideTheImageAreNotVisible) {
+  Silhouette s;
+  for (int row = 0; row < 10; ++row) s.spans.push_back({row, 0, 4});
+  s.box = {-6, 0, 10, 10};
+  s.inside_share = 0.4;
+  SpanTemplates templates(kImage);
+  templates.add(s, 0.1);
+  templates.add(Silhouette(), 0.1);  // not visible at all
+  const RowCounts counts(cv::Mat(kImage, CV_8UC1, cv::Scalar(255)));
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, counts, {}, 0.3).value(), 0);
+  EXPECT_FALSE(occupancy(templates, 0, counts, {}, 0.5).has_value());
+  EXPECT_FALSE(occupancy(templates, 1, counts, {}, 0).has_value());
+}
+
+TEST(OccupancyTest, DilatesAsASquareBrush) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 50; ++i) {
+    const std::vector<RowSpan> spans = random_silhouette(random).spans;
+    const int radius = 1 + i % 4;
+    const std::vector<RowSpan> grown = dilated(spans, radius, kImage);
+    const cv::Mat small = painted(spans);
+    const cv::Mat large = painted(grown);
+    int area = 0;
+    for (const RowSpan& s : grown) area += s.end - s.begin;
+    EXPECT_EQ(area, cv::countNonZero(large)) << "spans overlap";
+    for (int y = 0; y < kImage.height; ++y) {
+      for (int x = 0; x < kImage.width; ++x) {
+        const cv::Rect brush = cv::Rect(x - radius, y - radius, 2 * radius + 1, 2 * radius + 1) &
+                               cv::Rect(cv::Point(), kImage);
+        ASSERT_EQ(large.at<uchar>(y, x) != 0, cv::countNonZero(small(brush)) > 0)
+            << x << "," << y << " of " << i;
+      }
+    }
+  }
+}
+
+TEST(OccupancyTest, FilledInEmptySurroundingsIsOneAndTheOtherWayRoundMinusOne) {
+  Silhouette s;
+  for (int row = 10; row < 20; ++row) s.spans.push_back({row, 10, 16});
+  s.box = {10, 10, 6, 10};
+  s.inside_share = 1;
+  SpanTemplates templates(kImage);
+  templates.add(s, 0.2);
+  const cv::Mat inside = painted(s.spans);
+  const cv::Mat outside = 255 - inside;
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, RowCounts(inside), {}, 0).value(), 1);
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, RowCounts(outside), {}, 0).value(), -1);
+}
+
+}  // namespace
+}  // namespace plaza::color
