@@ -9,8 +9,10 @@ function(plaza_add_plugin NAME)
   endif()
   string(REPLACE "-" "_" target ${NAME})
   add_library(plaza_${target} MODULE ${ARG_SOURCES})
-  # -Wl,-z,defs: an undefined symbol is found at link time, not when a user loads the plugin
-  target_link_options(plaza_${target} PRIVATE $<$<NOT:$<BOOL:${PLAZA_SANITIZE}>>:-Wl,-z,defs>)
+  if(NOT PLAZA_SANITIZE)  # a sanitizer's own symbols are the executable's
+    # an undefined symbol is found at link time, not when a user loads the plugin
+    target_link_options(plaza_${target} PRIVATE -Wl,-z,defs)
+  endif()
   target_link_libraries(plaza_${target} PRIVATE Plaza::sdk ${ARG_LIBRARIES})
   if(TARGET plaza_warnings)
     target_link_libraries(plaza_${target} PRIVATE plaza_warnings)
