@@ -68,12 +68,7 @@ void add_check_command(CLI::App& app, CliContext& context) {
       "check", "Check a pipeline or a scene and everything it needs; compute nothing");
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("FILE", arguments->file, "A pipeline's or a scene's JSON file")->required();
-  command
-      ->add_option(
-          "--set", arguments->sets,
-          "Set a value, e.g. /nodes/edges/sigma_px=2.5 (node by name or index); may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("POINTER=VALUE");
+  add_set_option(*command, arguments->sets);
   command
       ->add_option("--draw", arguments->draw,
                    "Draw the scene's ground grid into a picture of each view, written to DIR")

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace CLI {
 class App;
-}
+}  // namespace CLI
 
 namespace plaza {
 
@@ -21,5 +24,8 @@ void add_show_command(CLI::App& app, CliContext& context);
 void add_plugins_command(CLI::App& app, CliContext& context);
 void add_eval_command(CLI::App& app, CliContext& context);
 void add_help_command(CLI::App& app, CliContext& context);
+
+/// The option of all commands that read a pipeline: "--set POINTER=VALUE", once per value.
+void add_set_option(CLI::App& command, std::vector<std::string>& sets);
 
 }  // namespace plaza

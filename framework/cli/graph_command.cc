@@ -21,12 +21,7 @@ void add_graph_command(CLI::App& app, CliContext& context) {
       app.add_subcommand("graph", "Print a pipeline as a graph in graphviz's DOT language");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("PIPELINE", arguments->file, "The pipeline's JSON file")->required();
-  command
-      ->add_option(
-          "--set", arguments->sets,
-          "Set a value, e.g. /nodes/edges/sigma_px=2.5 (node by name or index); may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("POINTER=VALUE");
+  add_set_option(*command, arguments->sets);
   command->footer("For a picture: plaza graph PIPELINE | dot -Tsvg -o pipeline.svg");
   command->callback([arguments, &context] {
     std::cout << graph_dot(read_pipeline({arguments->file, arguments->sets}, context.registry()));

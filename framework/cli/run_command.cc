@@ -113,12 +113,7 @@ void add_run_command(CLI::App& app, CliContext& context) {
   CLI::App* command = app.add_subcommand("run", "Run a pipeline and write its results");
   const auto arguments = std::make_shared<RunArguments>();
   command->add_option("PIPELINE", arguments->pipeline, "The pipeline's JSON file")->required();
-  command
-      ->add_option(
-          "--set", arguments->sets,
-          "Set a value, e.g. /nodes/edges/sigma_px=2.5 (node by name or index); may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("POINTER=VALUE");
+  add_set_option(*command, arguments->sets);
   command->add_option("--frames", arguments->frames, "Frames A (from 0) to before B")
       ->type_name("A:B");
   command->add_option("--out", arguments->out, "Output folder; default: out/<name of the file>")
