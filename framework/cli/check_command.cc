@@ -47,9 +47,10 @@ void check(const CheckArguments& arguments, CliContext& context) {
               << (scene->cameras.size() == 1 ? " camera: " : " cameras: ") << cameras_text(*scene)
               << '\n';
   } else {
-    const ResolvedPipeline pipeline =
-        read_pipeline({arguments.file, arguments.sets}, context.registry());
-    scene = read_scene(pipeline.scene_file);
+    const PipelineInScene read =
+        read_pipeline_in_scene({arguments.file, arguments.sets}, context.registry());
+    const ResolvedPipeline& pipeline = read.pipeline;
+    scene = read.scene;
     assemble(pipeline, scene, {});
     std::cout << arguments.file.string() << ": ok, " << pipeline.name << "\n  scene "
               << pipeline.scene_file.string() << ", cameras " << cameras_text(*scene) << "\n\n"

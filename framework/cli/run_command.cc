@@ -14,7 +14,6 @@
 #include "framework/cli/run_report.h"
 #include "framework/config/pipeline.h"
 #include "framework/execution/run.h"
-#include "framework/scene/scene_file.h"
 #include "plaza/core/error.h"
 
 namespace plaza {
@@ -90,9 +89,8 @@ RunOptions options_of(const RunArguments& arguments) {
 void run(const RunArguments& arguments, CliContext& context) {
   const RunOptions options = options_of(arguments);
   const InterruptScope interrupt;  // before anything that takes long
-  const ResolvedPipeline pipeline =
-      read_pipeline({.file = arguments.pipeline, .sets = arguments.sets}, context.registry());
-  const auto scene = read_scene(pipeline.scene_file);
+  const auto [pipeline, scene] = read_pipeline_in_scene(
+      {.file = arguments.pipeline, .sets = arguments.sets}, context.registry());
   const RunReport report = run_pipeline(pipeline, scene, options);
   for (const std::string& note : report.notes) std::cerr << "plaza: note: " << note << '\n';
   if (options.progress == ProgressStyle::kJsonLines) {

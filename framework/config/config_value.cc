@@ -162,8 +162,7 @@ void DiagnosticSink::add(const Origin& origin, std::string message) {
   diagnostics_.push_back({origin.where, origin.pointer, std::move(message)});
 }
 
-void DiagnosticSink::throw_if_any(const std::vector<std::string>& files) {
-  if (diagnostics_.empty()) return;
+Diagnostics DiagnosticSink::take(const std::vector<std::string>& files) {
   const auto rank = [&files](const Diagnostic& d) {
     return std::find(files.begin(), files.end(), d.where.file) - files.begin();
   };
@@ -173,7 +172,7 @@ void DiagnosticSink::throw_if_any(const std::vector<std::string>& files) {
                             std::make_tuple(rank(b), b.where.line, b.where.column);
                    });
   diagnostics_.erase(std::unique(diagnostics_.begin(), diagnostics_.end()), diagnostics_.end());
-  throw UserError(std::exchange(diagnostics_, {}));
+  return std::exchange(diagnostics_, {});
 }
 
 }  // namespace plaza

@@ -71,8 +71,8 @@ class DiagnosticSink {
   void add(const Origin& origin, std::string message);
   void add(Diagnostic diagnostic) { diagnostics_.push_back(std::move(diagnostic)); }
   bool empty() const { return diagnostics_.empty(); }
-  /// Throws one UserError with everything when there is anything.
-  void throw_if_any(const std::vector<std::string>& files);
+  /// Gives everything away, each fault once, in the order of `files` and of the places in them.
+  Diagnostics take(const std::vector<std::string>& files);
 
  private:
   Diagnostics diagnostics_;

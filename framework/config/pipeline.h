@@ -88,6 +88,16 @@ ResolvedPipeline read_pipeline(const PipelineRequest& request, const Registry& r
 ResolvedPipeline read_pipeline_text(std::string_view text, const PipelineRequest& request,
                                     const Registry& registry);
 
+/// A pipeline and the scene that it plays in.
+struct PipelineInScene {
+  ResolvedPipeline pipeline;
+  std::shared_ptr<const Scene> scene;
+};
+
+/// Reads both. The scene is read however much is wrong with the pipeline, as long as that says
+/// which; what is wrong with either is reported in one UserError, the pipeline's faults first.
+PipelineInScene read_pipeline_in_scene(const PipelineRequest& request, const Registry& registry);
+
 /// A pipeline's components, made and wired, in node order.
 struct Assembly {
   std::shared_ptr<const Scene> scene;

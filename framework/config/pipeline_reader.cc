@@ -8,6 +8,7 @@
 #include "framework/config/text.h"
 #include "framework/config/value_check.h"
 #include "framework/config/wiring.h"
+#include "framework/scene/scene_file.h"
 #include "plaza/core/error.h"
 
 namespace plaza {
@@ -111,6 +112,7 @@ class TopLevelReader {
     std::error_code error;
     if (!std::filesystem::is_regular_file(pipeline_.scene_file, error)) {
       diagnostics_.add(scene->origin, "there is no scene file " + pipeline_.scene_file.string());
+      pipeline_.scene_file.clear();
     }
   }
 
@@ -140,23 +142,52 @@ void read_nodes(const ConfigValue& root, const Registry& registry, ResolvedPipel
   for (NodeDraft& draft : drafts) pipeline.nodes.push_back(std::move(draft.node));
 }
 
+/// What was understood of a pipeline, and what is wrong with it.
+struct Reading {
+  ResolvedPipeline pipeline;  ///< scene_file is empty when there is no such file
+  Diagnostics faults;
+};
+
+Reading read_with_faults(std::string_view text, const PipelineRequest& request,
+                         const Registry& registry) {
+  DiagnosticSink diagnostics;
+  Reading reading;
+  reading.pipeline.file = request.file;
+  MergedConfig config = read_merged(text, request.file, diagnostics);
+  apply_sets(config.root, request.sets, registry, diagnostics);
+  TopLevelReader(config.root, reading.pipeline, diagnostics).read();
+  read_nodes(config.root, registry, reading.pipeline, diagnostics);
+  reading.faults = diagnostics.take(config.files);
+  return reading;
+}
+
 }  // namespace
 
 ResolvedPipeline read_pipeline_text(std::string_view text, const PipelineRequest& request,
                                     const Registry& registry) {
-  DiagnosticSink diagnostics;
-  ResolvedPipeline pipeline;
-  pipeline.file = request.file;
-  MergedConfig config = read_merged(text, request.file, diagnostics);
-  apply_sets(config.root, request.sets, registry, diagnostics);
-  TopLevelReader(config.root, pipeline, diagnostics).read();
-  read_nodes(config.root, registry, pipeline, diagnostics);
-  diagnostics.throw_if_any(config.files);
-  return pipeline;
+  Reading reading = read_with_faults(text, request, registry);
+  if (!reading.faults.empty()) throw UserError(std::move(reading.faults));
+  return std::move(reading.pipeline);
 }
 
 ResolvedPipeline read_pipeline(const PipelineRequest& request, const Registry& registry) {
   return read_pipeline_text(read_text_file(request.file), request, registry);
+}
+
+PipelineInScene read_pipeline_in_scene(const PipelineRequest& request, const Registry& registry) {
+  Reading reading = read_with_faults(read_text_file(request.file), request, registry);
+  PipelineInScene both;
+  if (!reading.pipeline.scene_file.empty()) {
+    try {
+      both.scene = read_scene(reading.pipeline.scene_file);
+    } catch (const UserError& error) {
+      const Diagnostics& faults = error.diagnostics();
+      reading.faults.insert(reading.faults.end(), faults.begin(), faults.end());
+    }
+  }
+  if (!reading.faults.empty()) throw UserError(std::move(reading.faults));
+  both.pipeline = std::move(reading.pipeline);
+  return both;
 }
 
 }  // namespace plaza

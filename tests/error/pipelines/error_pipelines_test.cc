@@ -25,8 +25,8 @@ class ErrorPipelines : public GoldenCase {
 TEST_P(ErrorPipelines, AreExplained) {
   const Registry registry = make_registry();
   expect_explained([&] {
-    const ResolvedPipeline pipeline = read_pipeline({input(), sets()}, registry);
-    assemble(pipeline, make_scene(), "out");
+    const PipelineInScene read = read_pipeline_in_scene({input(), sets()}, registry);
+    assemble(read.pipeline, read.scene, "out");
   });
 }
 
