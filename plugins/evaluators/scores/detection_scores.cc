@@ -2,29 +2,11 @@
 
 #include <utility>
 
-#include "plaza/scoring/people.h"
 #include "plaza/scoring/sections.h"
 
 namespace plaza::scores {
-namespace {
-
-constexpr std::size_t kObservations = 0;
-constexpr std::size_t kTruth = 1;
-
-}  // namespace
 
 Declaration<DetectionScores::Options> DetectionScores::declare() {
-  Parameters<Options> p;
-  p.value("overlap", &Options::overlap)
-      .above(0)
-      .at_most(1)
-      .meaning("least overlap of a match, the mean over the views in which the true person counts")
-      .source("thesis 3.3.2");
-  p.value("sweep", &Options::sweep)
-      .above(0)
-      .at_most(1)
-      .meaning("further overlaps at which everything is scored, listed in the section's \"sweep\"")
-      .source("thesis Fig. 4.17");
   Declaration<Options> d(
       "detection-scores",
       "Scores what was detected in each frame, before tracking, by its boxes in all views");
@@ -32,37 +14,33 @@ Declaration<DetectionScores::Options> DetectionScores::declare() {
       .input<Observations>(
           "what is scored; where a view has no measured box, the scene's body is drawn")
       .input<GroundTruth>("the truth")
-      .parameters(std::move(p));
+      .parameters(parameters("everything is", "thesis Fig. 4.17"));
   for (MetricSpec& metric : image_detection_metrics()) d.metric(std::move(metric));
   for (MetricSpec& metric : thesis_detection_metrics()) d.metric(std::move(metric));
   return d;
 }
 
 DetectionScores::DetectionScores(const Options& options, const BuildContext& context)
-    : options_(options), scene_(context.scene) {}
+    : ImageScores(options, context) {}
 
-void DetectionScores::do_observe(const NodeIo& io) {
-  truth_.add(io, kTruth);
-  if (io.has(kObservations)) observations_[io.frame()] = io.share<Observations>(kObservations);
+void DetectionScores::keep_results(const NodeIo& io) {
+  observations_[io.frame()] = io.share<Observations>(kResults);
 }
 
-Evaluation DetectionScores::do_evaluate() {
-  if (!truth_.has_boxes()) return {};
-  PairedSequenceBuilder builder;
-  for (const auto& [frame, truth] : truth_.frames()) {
-    std::vector<ResultPerson> results;
-    if (const auto found = observations_.find(frame); found != observations_.end()) {
-      for (const Observation& o : found->second->items) {
-        results.push_back({.id = static_cast<std::int64_t>(results.size()),
-                           .boxes = boxes_in_views(*scene_, o.position_m, o.boxes)});
-      }
-    }
-    add_people(builder, frame, *truth, results, options_.overlap);
+std::vector<ResultPerson> DetectionScores::results_in(std::int64_t frame) const {
+  std::vector<ResultPerson> results;
+  const auto found = observations_.find(frame);
+  if (found == observations_.end()) return results;
+  for (const Observation& o : found->second->items) {
+    results.push_back({.id = static_cast<std::int64_t>(results.size()),
+                       .boxes = boxes_in_views(scene(), o.position_m, o.boxes)});
   }
-  const PairedSequence similarity = builder.build();
-  if (similarity.truth_count == 0) return {};
-  return {{"detection", image_detection_section(similarity, options_.overlap, options_.sweep)},
-          {"thesis", thesis_section(&similarity, nullptr, options_.overlap)}};
+  return results;
+}
+
+Evaluation DetectionScores::figures(const PairedSequence& similarity) const {
+  return {{"detection", image_detection_section(similarity, options().overlap, options().sweep)},
+          {"thesis", thesis_section(&similarity, nullptr, options().overlap)}};
 }
 
 }  // namespace plaza::scores
