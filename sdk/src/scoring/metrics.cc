@@ -40,6 +40,15 @@ constexpr Better kHigher = Better::kHigher;
 constexpr Better kLower = Better::kLower;
 constexpr Better kNeither = Better::kNeither;
 
+void add_detection(std::vector<MetricSpec>& out, const char* section, const char* modp) {
+  add(out, section,
+      {{"MODA", "", kHigher, "1 - (misses + false alarms) / true people"},
+       {"MODP", "", kHigher, modp},
+       {"precision", "", kHigher, "share of the results that match"},
+       {"recall", "", kHigher, "share of the true people that are found"},
+       {"F1", "", kHigher, "harmonic mean of precision and recall"}});
+}
+
 void add_counts(std::vector<MetricSpec>& out, const char* section) {
   add(out, section,
       {{"TP", "", kHigher, "matches, summed over the frames"},
@@ -88,12 +97,7 @@ void add_hota(std::vector<MetricSpec>& out, const char* section) {
 
 std::vector<MetricSpec> image_detection_metrics() {
   std::vector<MetricSpec> out;
-  add(out, "detection",
-      {{"MODA", "", kHigher, "1 - (misses + false alarms) / true people"},
-       {"MODP", "", kHigher, "mean overlap of the matches"},
-       {"precision", "", kHigher, "share of the results that match"},
-       {"recall", "", kHigher, "share of the true people that are found"},
-       {"F1", "", kHigher, "harmonic mean of precision and recall"}});
+  add_detection(out, "detection", "mean overlap of the matches");
   add_counts(out, "detection");
   return out;
 }
@@ -119,13 +123,9 @@ std::vector<MetricSpec> image_tracking_metrics() {
 
 std::vector<MetricSpec> ground_metrics() {
   std::vector<MetricSpec> out;
+  add_detection(out, "ground", "mean of 1 - distance / threshold over the matches");
   add(out, "ground",
-      {{"MODA", "", kHigher, "1 - (misses + false alarms) / true people"},
-       {"MODP", "", kHigher, "mean of 1 - distance / threshold over the matches"},
-       {"precision", "", kHigher, "share of the results that match"},
-       {"recall", "", kHigher, "share of the true people that are found"},
-       {"F1", "", kHigher, "harmonic mean of precision and recall"},
-       {"MOTA", "", kHigher, "1 - (misses + false alarms + identity switches) / true people"},
+      {{"MOTA", "", kHigher, "1 - (misses + false alarms + identity switches) / true people"},
        {"MOTP", "", kHigher, "1 - mean distance of the matches in metres"},
        {"MOTP_over_distance", "", kHigher, "1 - mean distance of the matches / threshold"},
        {"mean_error_m", "m", kLower, "mean distance of the matches"},
