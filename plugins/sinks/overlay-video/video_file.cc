@@ -42,7 +42,9 @@ bool open_writer(cv::VideoWriter& writer, const fs::path& file, const Encoding& 
 
 /// Frames that can be read back from the file's index.
 std::int64_t frames_in(const fs::path& file) {
-  cv::VideoCapture capture(file.string());
+  // of the two that can have written it: trying every backend there is costs time, and some leak
+  cv::VideoCapture capture(file.string(), cv::CAP_FFMPEG);
+  if (!capture.isOpened()) capture.open(file.string(), cv::CAP_OPENCV_MJPEG);
   cv::Mat first;
   if (!capture.isOpened() || !capture.read(first)) return 0;
   return static_cast<std::int64_t>(capture.get(cv::CAP_PROP_FRAME_COUNT) + 0.5);

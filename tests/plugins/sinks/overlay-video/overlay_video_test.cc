@@ -59,7 +59,7 @@ TEST(OverlayVideo, VideoRunsAtTheScenesRate) {
   OverlayRun r;
   r.scene->frame_rate_hz = 7;
   r.run();
-  cv::VideoCapture capture((r.folder.path() / "overlay.mp4").string());
+  cv::VideoCapture capture((r.folder.path() / "overlay.mp4").string(), cv::CAP_FFMPEG);
   EXPECT_NEAR(capture.get(cv::CAP_PROP_FPS), 7, 0.01);
 }
 

@@ -55,7 +55,7 @@ TEST(VideoFile, EveryCodecAndContainerThatIsOfferedCanBeReadBack) {
       for (int i = 0; i < 9; ++i) video.write(picture(i));
       video.close();
       EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a" + extension});
-      cv::VideoCapture back((folder.path() / ("a" + extension)).string());
+      cv::VideoCapture back((folder.path() / ("a" + extension)).string(), cv::CAP_FFMPEG);
       cv::Mat image;
       int frames = 0;
       while (back.read(image)) {
