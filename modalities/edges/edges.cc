@@ -92,6 +92,12 @@ Declaration<Edges::Options> Edges::declare() {
           "an edge near one of the background is removed when the cosine between their "
           "gradients is above this (Th_s)")
       .source("thesis (4.1)");
+  p.value("min_contour_px", &Options::min_contour_px)
+      .unit("px")
+      .at_least(1)
+      .meaning(
+          "least pixels of a connected piece of foreground edges; smaller ones are dropped before "
+          "linking, 1: none");
   p.value("link_px", &Options::link_px)
       .unit("px")
       .at_least(0)
@@ -141,6 +147,7 @@ Edges::Edges(const Options& options, const BuildContext& context)
                     .high = options.high_threshold,
                     .blur_px = options.blur_px},
       segmentation_{.orientation_threshold = options.orientation_threshold,
+                    .min_contour_px = options.min_contour_px,
                     .link_px = options.link_px,
                     .link_end_points = options.link_end_points},
       template_options_{.min_visible = options.min_visible,

@@ -32,6 +32,7 @@ class Edges final : public Modality {
     double background_tolerance_px = 2;
     double background_sensitivity = 0.5;
     double orientation_threshold = 0.9;
+    int min_contour_px = 1;
     int link_px = 5;
     int link_end_points = 1;
     int directions = 12;

@@ -38,6 +38,37 @@ bool is_background(const EdgeImage& image, const ViewBackground& background, dou
   return b[0] * fx + b[1] * fy > static_cast<float>(threshold) * std::sqrt(fx * fx + fy * fy);
 }
 
+/// Takes pieces of fewer than `least` pixels out of the foreground and of `points`.
+void drop_specks(int least, LabelImage& labels, std::vector<EdgePoint>& points) {
+  std::vector<EdgePoint> piece;
+  for (const EdgePoint seed : points) {
+    if ((labels.at(seed.x, seed.y) & kVisited) != 0) continue;
+    piece.assign(1, seed);
+    labels.at(seed.x, seed.y) |= kVisited;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const EdgePoint from = piece[i];
+      for (const EdgePoint step : kAround) {
+        const EdgePoint p = from + step;
+        std::uint8_t& label = labels.at(p.x, p.y);
+        if ((label & (kForeground | kVisited)) != kForeground) continue;
+        label |= kVisited;
+        piece.push_back(p);
+      }
+    }
+    if (piece.size() >= static_cast<std::size_t>(least)) continue;
+    for (const EdgePoint p : piece) {
+      labels.at(p.x, p.y) &= static_cast<std::uint8_t>(~kForeground);
+    }
+  }
+  std::size_t kept = 0;
+  for (const EdgePoint p : points) {
+    std::uint8_t& label = labels.at(p.x, p.y);
+    label &= static_cast<std::uint8_t>(~kVisited);
+    if ((label & kForeground) != 0) points[kept++] = p;
+  }
+  points.resize(kept);
+}
+
 void link(const SegmentationOptions& options, LabelImage& labels, std::vector<EdgePoint>& points) {
   std::vector<EdgePoint> ends;
   for (const EdgePoint p : points) {
@@ -82,6 +113,7 @@ void segment(const EdgeImage& image, const ViewBackground* background,
     points[kept++] = p;
   }
   points.resize(kept);
+  if (options.min_contour_px > 1) drop_specks(options.min_contour_px, labels, points);
   if (options.link_px > 0) link(options, labels, points);
 }
 

@@ -14,12 +14,14 @@ namespace plaza::edges {
 enum EdgeLabel : std::uint8_t {
   kEdge = 1,        ///< an edge of the image (Theta_fu)
   kSegmented = 2,   ///< left by the subtraction of the background (Theta_f)
-  kForeground = 4,  ///< foreground in the end: segmented, or brought back by linking
+  kForeground = 4,  ///< foreground in the end: segmented and no speck, or brought back by linking
   kExplained = 8,   ///< taken away by an accepted template
+  kVisited = 16,    ///< while pieces are counted
 };
 
 struct SegmentationOptions {
   double orientation_threshold = 0.9;  ///< Th_s of (4.1)
+  int min_contour_px = 1;              ///< smaller pieces (8-neighbours) are dropped before linking
   int link_px = 5;          ///< most pixels that a contour grows at an end; 0: no linking
   int link_end_points = 1;  ///< linking ends when fewer end points than this have moved
 };
@@ -40,7 +42,8 @@ class LabelImage {
 
 /// Labels every edge pixel and lists those of the foreground.
 ///
-/// Removed is what lies near an edge of the background and runs its way (4.1); linking then lets
+/// Removed is what lies near an edge of the background and runs its way (4.1), and of the rest what
+/// is too small to be a contour; linking then lets
 /// contours grow from their end points along removed edges (thesis 4.3.2, Figure 4.5): an end point
 /// takes one neighbour that is an edge of the image, which becomes the new end point unless it has
 /// met another contour. `labels` must be of the edges' size and clear; `points` is overwritten.

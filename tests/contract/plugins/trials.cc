@@ -183,6 +183,12 @@ const std::map<std::string, Maker>& table() {
       {"ground-scores", [](const fs::path&) { return defaults(); }},
       // sinks and renderers
       {"overlay-video", [](const fs::path&) { return defaults(); }},
+      {"evidence-pictures",
+       [](const fs::path&) {
+         return std::vector<Trial>{
+             trial("two frames",
+                   {{"frames", {3, 1}}, {"evidence", {{{"from", "edges"}}, {{"from", "color"}}}}})};
+       }},
       {"summary", [](const fs::path&) { return defaults(); }},
   };
   return kTable;

@@ -79,6 +79,25 @@ TEST(Segment, KeepsWhatCrossesTheBackground) {
   EXPECT_EQ(left(180), 20u) << "from bright to dark instead of dark to bright: another edge";
 }
 
+TEST(Segment, DropsSpecks) {
+  std::vector<cv::Point> pixels = {{3, 3}, {4, 4}, {5, 5}, {4, 6}};  // one piece over its corners
+  pixels.push_back({20, 20});
+  pixels.push_back({22, 20});  // two pieces of one pixel
+  SegmentationOptions options = kUnlinked;
+  const auto left = [&](int least) {
+    options.min_contour_px = least;
+    return run(image_of(pixels), nullptr, options).points.size();
+  };
+  EXPECT_EQ(left(1), 6u);
+  EXPECT_EQ(left(2), 4u);
+  EXPECT_EQ(left(4), 4u);
+  EXPECT_EQ(left(5), 0u);
+  options.min_contour_px = 2;
+  const Segmented s = run(image_of(pixels), nullptr, options);
+  EXPECT_EQ(s.labels.at(20, 20), kEdge | kSegmented) << "the subtraction left it";
+  EXPECT_EQ(s.labels.at(4, 4), kEdge | kSegmented | kForeground);
+}
+
 /// A contour down column 20 with a gap of `gap` pixels, where the background hides it.
 Segmented with_gap(int gap, const SegmentationOptions& options) {
   const ViewBackground background = background_of(column(20, 12, 12 + gap));
@@ -101,7 +120,7 @@ TEST(Link, GrowsNoFurtherThanItMay) {
 }
 
 TEST(Link, EndsWhenFewEndPointsMove) {
-  SegmentationOptions options{.orientation_threshold = 0.9, .link_px = 20, .link_end_points = 3};
+  SegmentationOptions options{.orientation_threshold = 0.9, .min_contour_px = 1, .link_px = 20, .link_end_points = 3};
   EXPECT_EQ(with_gap(9, options).points.size(), 26u - 13u + 2u) << "two ends move, once";
   options.link_end_points = 2;
   EXPECT_EQ(with_gap(9, options).points.size(), 26u);
