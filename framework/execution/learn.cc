@@ -43,7 +43,7 @@ class Pass {
       const bool anybody = std::find(wanted.begin(), wanted.end(), true) != wanted.end();
       // beyond the announced end only reading tells whether there is more
       if (!anybody && known_end && frame < *known_end) continue;
-      if (frame != reader_.next()) reader_.seek(frame);
+      if (frame != reader_.next() && !reach(frame, known_end, state)) return false;
       next_ = frame + 1;
       if (!reader_.read_clock(state)) return false;
       if (!anybody) continue;
@@ -65,6 +65,17 @@ class Pass {
   }
 
  private:
+  /// Makes `frame` the next one to be read; false where the source has ended before it. Where it
+  /// announced its end nothing may be sought, so the frame before is read once more.
+  bool reach(std::int64_t frame, std::optional<std::int64_t> known_end, FrameState& state) {
+    if (!known_end || frame < *known_end || frame == 0) {
+      reader_.seek(frame);
+      return true;
+    }
+    reader_.seek(frame - 1);
+    return reader_.read_clock(state);
+  }
+
   std::vector<bool> wanted_by(std::int64_t frame) {
     std::optional<bool> free;  // asked once, and only if somebody wants to know
     std::vector<bool> wanted(pupils_.size(), false);

@@ -110,7 +110,7 @@ class TestSource : public Source {
     fail_if(options_, "seek", frame);
     if (options_.live)
       throw InternalError("a live source can't go to frame " + std::to_string(frame));
-    if (frame > options_.frames) throw UserError("frame is beyond the end");
+    if (frame >= options_.frames) throw UserError("frame is beyond the end");
   }
   bool do_read(NodeIo& io) override {
     if (io.frame() >= options_.frames) return false;
