@@ -104,13 +104,13 @@ std::vector<Picture> EdgeEvidence::pictures() const {
     pictures.push_back({"background-edges", "edges of the background", image});
   }
   pictures.push_back({"all-edges", "edges of the image", picture_of(labels, kEdge, 0, kEdge)});
-  pictures.push_back({"segmented-edges", "edges left by the background's subtraction",
+  pictures.push_back({"segmented-edges", "left by subtracting the background",
                       picture_of(labels, kSegmented, 0, kSegmented)});
-  pictures.push_back({"linked-edges", "foreground edges; linked ones yellow, explained ones grey",
+  pictures.push_back({"linked-edges", "foreground (linked: yellow, explained: grey)",
                       picture_of(labels, kForeground, kExplained, kSegmented)});
-  pictures.push_back({"directions", "direction in which an edge is nearest, by colour",
+  pictures.push_back({"directions", "where an edge is nearest, by colour",
                       directions_of(block_->planes, *layout_)});
-  pictures.push_back({"transform", "oriented distance transform, one tile per direction",
+  pictures.push_back({"transform", "the transform, one tile per direction",
                       transform_of(block_->planes, *layout_)});
   return pictures;
 }

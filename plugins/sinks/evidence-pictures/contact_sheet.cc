@@ -10,7 +10,7 @@ namespace plaza::evidence_pictures {
 namespace {
 
 constexpr int kGap = 12, kText = 12, kTitle = 16;
-constexpr int kLabel = kText + 14;          // a label with its room
+constexpr int kLabel = 2 * kText + 26;      // a label with its room
 constexpr int kHeader = kTitle + 2 * kGap;  // a title with its room
 
 cv::Size fitted(cv::Size image, int width) {
@@ -77,9 +77,13 @@ cv::Mat contact_sheet(const std::string& title, const std::vector<Section>& sect
         cv::Mat place = sheet(cv::Rect({x, y}, size));
         cv::resize(tile.image, place, size, 0, 0,
                    size.width < tile.image.cols ? cv::INTER_AREA : cv::INTER_NEAREST);
-        drawing::draw_text(sheet, shortened(tile.label, kText, tile_width),
-                           {static_cast<double>(x), static_cast<double>(y + size.height + 6)},
-                           {kText, theme.text});
+        const auto write = [&](const std::string& text, int top, const drawing::Color& color) {
+          drawing::draw_text(sheet, shortened(text, kText, tile_width),
+                             {static_cast<double>(x), static_cast<double>(y + size.height + top)},
+                             {kText, color});
+        };
+        write(tile.name, 6, theme.text);
+        write(tile.caption, kText + 12, theme.quiet_text);
       }
       y += row.height + kLabel;
     }

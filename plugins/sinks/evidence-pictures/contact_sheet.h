@@ -8,7 +8,7 @@ namespace plaza::evidence_pictures {
 
 struct Tile {
   cv::Mat image;  ///< 8-bit BGR, not empty
-  std::string label;
+  std::string name, caption;
 };
 
 /// Tiles that belong together: a view's.
@@ -17,9 +17,9 @@ struct Section {
   std::vector<Tile> tiles;
 };
 
-/// All tiles in one picture, section by section in rows of at most `columns`, each with its label
-/// below. `width_px` >= 320; the height follows. Images are scaled to the tiles' width, but not
-/// enlarged beyond twice their size.
+/// All tiles in one picture, section by section in rows of at most `columns`, each with its name
+/// and caption below. `width_px` >= 320; the height follows. Images are scaled to the tiles' width,
+/// but not enlarged beyond twice their size.
 cv::Mat contact_sheet(const std::string& title, const std::vector<Section>& sections, int width_px,
                       int columns);
 

@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::size_t kFrames = 0, kLikelihood = 1;
 
-/// "edges.all-edges: edges of the image": the part before the colon is the file's name.
-std::string label_of(const std::string& file, const std::string& caption) {
-  return file + ": " + caption;
-}
-
-std::string file_of(const Tile& tile) { return tile.label.substr(0, tile.label.find(':')); }
-
 std::string six_digits(std::int64_t frame) {
   char text[24];
   std::snprintf(text, sizeof text, "%06lld", static_cast<long long>(frame + 1));
@@ -70,22 +63,22 @@ Section EvidencePictures::view_section(const NodeIo& io, std::size_t camera) con
   Section section{scene_->cameras[camera].name(), {}};
   const FrameSet& frames = io.in<FrameSet>(kFrames);
   const cv::Mat image = camera < frames.views.size() ? frames.views[camera] : cv::Mat();
-  if (!image.empty()) section.tiles.push_back({image, label_of("image", "as the camera saw it")});
+  if (!image.empty()) section.tiles.push_back({image, "image", "as the camera saw it"});
   for (const InputReference& input : evidence_) {
     const auto* evidence = io.find<EvidenceSet>(input.slot);
     if (evidence == nullptr || camera >= evidence->views.size()) continue;
     if (evidence->views[camera] == nullptr) continue;  // no image in this frame
     for (Picture& picture : evidence->views[camera]->pictures()) {
       section.tiles.push_back(
-          {std::move(picture.image), label_of(input.from + "." + picture.name, picture.caption)});
+          {std::move(picture.image), input.from + "." + picture.name, std::move(picture.caption)});
     }
   }
   if (const auto* likelihood = io.find<GroundLikelihood>(kLikelihood)) {
     const Camera& c = scene_->cameras[camera];
     const auto add = [&](const char* file, const char* caption, std::span<const double> values) {
       section.tiles.push_back(
-          {likelihood_on_view(image, c, likelihood->grid, relative_likelihood(values)),
-           label_of(file, caption)});
+          {likelihood_on_view(image, c, likelihood->grid, relative_likelihood(values)), file,
+           caption});
     };
     add("likelihood", "joint likelihood of the cells on the ground", likelihood->joint);
     if (scene_->cameras.size() > 1 && camera < likelihood->views.size()) {
@@ -102,8 +95,7 @@ Section EvidencePictures::surface_section(const NodeIo& io) const {
   return {
       "ground",
       {{likelihood_surface(likelihood->grid, relative_likelihood(likelihood->joint), {1200, 800}),
-        label_of("likelihood-surface",
-                 "joint likelihood over the ground, as a share of the best cell's")}}};
+        "likelihood-surface", "joint likelihood over the ground, as a share of the best cell's"}}};
 }
 
 void EvidencePictures::write_section(const Section& section, const fs::path& folder) const {
@@ -114,7 +106,7 @@ void EvidencePictures::write_section(const Section& section, const fs::path& fol
                     "' for pictures could not be made: " + error.message());
   }
   for (const Tile& tile : section.tiles) {
-    drawing::write_png(folder / (file_of(tile) + ".png"), tile.image);
+    drawing::write_png(folder / (tile.name + ".png"), tile.image);
   }
 }
 

@@ -7,8 +7,8 @@
 namespace plaza::evidence_pictures {
 namespace {
 
-Tile tile(cv::Size size, const cv::Scalar& color, std::string label = "a: label") {
-  return {cv::Mat(size, CV_8UC3, color), std::move(label)};
+Tile tile(cv::Size size, const cv::Scalar& color, std::string name = "name") {
+  return {cv::Mat(size, CV_8UC3, color), name, "of " + name};
 }
 
 int pixels_of(const cv::Mat& sheet, const cv::Scalar& color) {
