@@ -50,7 +50,7 @@ ConvexOutline outline_of(const Prism& prism, const CameraFromWorld& pose) {
   std::vector<Eigen::Vector3d> corners(2 * n);  // in the camera's frame: bottom, then top
   bool all_in_front = true, any_in_front = false;
   for (std::size_t i = 0; i < 2 * n; ++i) {
-    const Eigen::Vector2d& base = prism.base_m[i % n];
+    const Eigen::Vector2d& base = prism.base_m[i < n ? i : i - n];
     corners[i] =
         pose.rotation * Eigen::Vector3d(base.x(), base.y(), i < n ? prism.bottom_m : prism.top_m) +
         pose.translation;
@@ -72,8 +72,9 @@ ConvexOutline outline_of(const Prism& prism, const CameraFromWorld& pose) {
       points.emplace_back((a + t * (b - a)).head<2>() / kNear_m);
     };
     for (std::size_t i = 0; i < n; ++i) {
-      meet(corners[i], corners[(i + 1) % n]);
-      meet(corners[n + i], corners[n + (i + 1) % n]);
+      const std::size_t j = i + 1 < n ? i + 1 : 0;
+      meet(corners[i], corners[j]);
+      meet(corners[n + i], corners[n + j]);
       meet(corners[i], corners[n + i]);
     }
   }

@@ -1,0 +1,180 @@
+#include "plugins/detectors/hierarchical-grid/grid_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plaza/core/parallel.h"
+
+namespace plaza {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kChunk = 256;  ///< templates that one task matches
+
+/// Median of the numbers that are known; NaN without any.
+double median_of_known(std::span<const double> values) {
+  std::vector<double> known;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+               [](double v) { return std::isfinite(v); });
+  if (known.empty()) return kUnknown;
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  return *middle;
+}
+
+/// Logarithm of the mean of exp(values), over what is known; NaN without any.
+double log_mean(std::span<const double> values) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double v : values) {
+    if (std::isfinite(v)) largest = std::max(largest, v);
+  }
+  if (!std::isfinite(largest)) return kUnknown;
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    sum += std::exp(v - largest);
+    ++count;
+  }
+  return largest + std::log(sum / static_cast<double>(count));
+}
+
+}  // namespace
+
+GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy,
+                       const ShapeModel& model, std::vector<Witness> witnesses, std::size_t cameras,
+                       double refine_above)
+    : grid_(&grid),
+      witnesses_(std::move(witnesses)),
+      cameras_(cameras),
+      refine_above_(refine_above) {
+  for (std::size_t level = 0; level < grid.levels(); ++level) {
+    auto& batches = batches_.emplace_back(witnesses_.size() * cameras);
+    auto& templates = template_of_cell_.emplace_back(cameras);
+    std::vector<char> seen(grid.size(level), 0);
+    parallel_for(cameras, [&](std::size_t camera) {
+      const LevelTemplates& stored = hierarchy.templates(camera, level);
+      templates[camera].assign(grid.size(level), kUnseen);
+      std::vector<Pose> poses;
+      for (const CellIndex cell : stored.cells) {
+        templates[camera][cell] = static_cast<std::uint32_t>(poses.size());
+        poses.push_back({grid.position(level, cell), 0, 1});
+      }
+      const StoredShape shape(model, grid, level, stored);
+      for (std::size_t w = 0; w < witnesses_.size(); ++w) {
+        batches[w * cameras + camera] = witnesses_[w].modality->sample(shape, poses, camera);
+      }
+    });
+    for (std::size_t camera = 0; camera < cameras; ++camera) {
+      for (const CellIndex cell : hierarchy.templates(camera, level).cells) seen[cell] = 1;
+    }
+    auto& cells = seen_cells_.emplace_back();
+    for (std::size_t cell = 0; cell < seen.size(); ++cell) {
+      if (seen[cell] != 0) cells.push_back(static_cast<CellIndex>(cell));
+    }
+  }
+}
+
+std::vector<CellIndex> GridSearch::wanted_cells(std::size_t level,
+                                                const LevelLikelihood* parents) const {
+  if (parents == nullptr || refine_above_ == 0) return seen_cells_[level];
+  // where all cells are alike, rounding must not lift them above their own mean
+  const double limit = log_mean(parents->joint) + std::log(refine_above_) + 1e-9;
+  std::vector<CellIndex> wanted;
+  for (const CellIndex cell : seen_cells_[level]) {
+    const double parent = parents->joint[grid_->parent(level, cell)];
+    if (!std::isfinite(parent) || parent > limit) wanted.push_back(cell);
+  }
+  return wanted;
+}
+
+void GridSearch::evaluate(std::size_t level, std::span<const CellIndex> wanted,
+                          std::span<const std::vector<EvidencePtr>> evidence,
+                          std::vector<Values>& values) const {
+  struct Task {
+    std::size_t pair = 0;
+    std::size_t begin = 0, end = 0;  ///< of the camera's lists below
+  };
+  std::vector<std::vector<std::uint32_t>> which(cameras_);
+  std::vector<std::vector<CellIndex>> cells(cameras_);
+  std::vector<Task> tasks;
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    for (const CellIndex cell : wanted) {
+      const std::uint32_t index = template_of_cell_[level][camera][cell];
+      if (index == kUnseen) continue;
+      which[camera].push_back(index);
+      cells[camera].push_back(cell);
+    }
+    for (std::size_t w = 0; w < witnesses_.size(); ++w) {
+      if (!evidence[w][camera]) continue;
+      for (std::size_t begin = 0; begin < cells[camera].size(); begin += kChunk) {
+        tasks.push_back(
+            {w * cameras_ + camera, begin, std::min(begin + kChunk, cells[camera].size())});
+      }
+    }
+  }
+  parallel_for(tasks.size(), [&](std::size_t t) {
+    const Task& task = tasks[t];
+    const std::size_t w = task.pair / cameras_, camera = task.pair % cameras_;
+    std::vector<double> found(task.end - task.begin);
+    witnesses_[w].modality->match(
+        *evidence[w][camera], *batches_[level][task.pair],
+        std::span(which[camera]).subspan(task.begin, task.end - task.begin), found);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      values[task.pair][cells[camera][task.begin + i]] = found[i];
+    }
+  });
+}
+
+SearchResult GridSearch::search(std::span<const std::vector<EvidencePtr>> evidence) const {
+  SearchResult result;
+  result.exhaustive = seen_cells_.back().size();
+  const std::size_t pairs = witnesses_.size() * cameras_;
+  std::vector<double> baselines(pairs, kUnknown);
+  for (std::size_t level = 0; level < grid_->levels(); ++level) {
+    const LevelLikelihood* parents = level > 0 ? &result.levels.back() : nullptr;
+    const std::vector<CellIndex> wanted = wanted_cells(level, parents);
+    std::vector<Values> values(pairs, Values(grid_->size(level), kUnknown));
+    evaluate(level, wanted, evidence, values);
+    result.evaluated += wanted.size();
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      if (!std::isfinite(baselines[pair])) baselines[pair] = median_of_known(values[pair]);
+    }
+
+    LevelLikelihood here;
+    here.joint.assign(grid_->size(level), kUnknown);
+    here.evaluated.assign(grid_->size(level), 0);
+    here.views.assign(cameras_, Values(grid_->size(level), kUnknown));
+    if (parents != nullptr) {
+      for (std::size_t cell = 0; cell < here.joint.size(); ++cell) {
+        here.joint[cell] = parents->joint[grid_->parent(level, static_cast<CellIndex>(cell))];
+      }
+    }
+    for (const CellIndex cell : wanted) {
+      double sum = 0;
+      bool told = false;
+      for (std::size_t camera = 0; camera < cameras_; ++camera) {
+        double view = 0;
+        bool view_told = false;
+        for (std::size_t w = 0; w < witnesses_.size(); ++w) {
+          const std::size_t pair = w * cameras_ + camera;
+          if (!std::isfinite(values[pair][cell])) continue;
+          view += witnesses_[w].weight * (values[pair][cell] - baselines[pair]);
+          view_told = true;
+        }
+        if (!view_told) continue;
+        here.views[camera][cell] = view;
+        sum += view;
+        told = true;
+      }
+      here.joint[cell] = told ? sum : kUnknown;
+      here.evaluated[cell] = told ? 1 : 0;
+    }
+    result.levels.push_back(std::move(here));
+  }
+  return result;
+}
+
+}  // namespace plaza

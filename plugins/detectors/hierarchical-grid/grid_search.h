@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "plaza/component/modality.h"
+#include "plugins/detectors/hierarchical-grid/template_hierarchy.h"
+
+namespace plaza {
+
+/// A modality with its weight in the sum of log-likelihoods.
+struct Witness {
+  std::shared_ptr<const Modality> modality;
+  double weight = 1;
+};
+
+/// Likelihoods of one level's cells in one frame.
+struct LevelLikelihood {
+  /// [cell]: sum over the views and modalities that can tell; inherited from the parent where the
+  /// cell itself was not evaluated; NaN where nothing can tell.
+  std::vector<double> joint;
+  std::vector<char> evaluated;             ///< [cell]: 1 where the joint value is the cell's own
+  std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
+};
+
+struct SearchResult {
+  std::vector<LevelLikelihood> levels;  ///< coarse to fine
+  std::size_t evaluated = 0;            ///< cells, over all levels
+  std::size_t exhaustive = 0;           ///< cells of the finest level that any view sees
+};
+
+/// The coarse-to-fine search of thesis 4.3.5.
+///
+/// A cell's joint log-likelihood is the sum over cameras and modalities (a product of likelihoods)
+/// of weight * (log-likelihood - baseline). The baseline of a modality in a view is the median over
+/// the coarsest cells that it can tell about in this frame, that is, what an empty place has. It
+/// changes nothing between cells that the same views see, so with one view, or where all views see
+/// all cells, this is the thesis's product. It makes the rest comparable: a view that can't tell
+/// adds 0, what an empty place would have added, so that a cell gains nothing by being seen less.
+class GridSearch {
+ public:
+  /// Samples every modality's templates, once for all frames. `refine_above`: cells of the next
+  /// level are evaluated where the parent's likelihood exceeds the mean of its level so many times;
+  /// 0: everywhere. Grid and hierarchy must outlive the search.
+  GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy, const ShapeModel& model,
+             std::vector<Witness> witnesses, std::size_t cameras, double refine_above);
+
+  /// evidence[witness][camera]; null where the view has none. Thread-safe.
+  SearchResult search(std::span<const std::vector<EvidencePtr>> evidence) const;
+
+ private:
+  using Values = std::vector<double>;  ///< [cell]
+  /// Evaluates `wanted` cells: values[witness * cameras + camera][cell].
+  void evaluate(std::size_t level, std::span<const CellIndex> wanted,
+                std::span<const std::vector<EvidencePtr>> evidence,
+                std::vector<Values>& values) const;
+  std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
+
+  const StateGrid* grid_;
+  std::vector<Witness> witnesses_;
+  std::size_t cameras_;
+  double refine_above_;
+  /// [level][witness * cameras + camera]
+  std::vector<std::vector<std::unique_ptr<TemplateBatch>>> batches_;
+  /// [level][camera][cell]: index of the template in the batch; kUnseen: the view doesn't see it
+  std::vector<std::vector<std::vector<std::uint32_t>>> template_of_cell_;
+  std::vector<std::vector<CellIndex>> seen_cells_;  ///< [level]: by any camera, rising
+};
+
+}  // namespace plaza

@@ -1,0 +1,247 @@
+#include "plugins/detectors/hierarchical-grid/hierarchical_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "plaza/data/evidence.h"
+#include "plugins/detectors/hierarchical-grid/silhouette_codec.h"
+
+namespace plaza {
+namespace {
+
+[[noreturn]] void refuse(const std::string& pointer, const std::string& message) {
+  Diagnostic fault;
+  fault.pointer = pointer;
+  fault.message = message;
+  throw UserError(fault);
+}
+
+GroundArea searched_area(const Scene& scene, double margin_m) {
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
+  return {.min_m = scene.area.min_m - margin, .max_m = scene.area.max_m + margin};
+}
+
+StateGrid make_grid(const HierarchicalGrid::Options& o, const Scene& scene) {
+  int divisor = 1;
+  for (int level = 1; level < o.levels && divisor <= o.cells; ++level) divisor *= o.branching;
+  if (o.cells % divisor != 0) {
+    refuse("/cells", "must be divisible by branching^(levels - 1), which is " +
+                         std::to_string(divisor) + ", so that every cell has one parent");
+  }
+  return StateGrid(searched_area(scene, o.margin_m), o.cells, o.levels, o.branching);
+}
+
+std::vector<Witness> make_witnesses(const std::vector<InputReference>& inputs) {
+  if (inputs.empty()) {
+    refuse("/modalities", "is empty: name at least one modality, such as { \"from\": \"edges\" }");
+  }
+  std::vector<Witness> witnesses;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    auto modality = std::dynamic_pointer_cast<const Modality>(inputs[i].producer);
+    if (!modality) {
+      refuse("/modalities/" + std::to_string(i) + "/from",
+             "'" + inputs[i].from + "' is no modality: it can't compare silhouettes with images");
+    }
+    witnesses.push_back({std::move(modality), inputs[i].fields.value("weight", 1.0)});
+  }
+  return witnesses;
+}
+
+ParameterSpec weight_field() {
+  struct Fields {
+    double weight = 1;
+  };
+  Parameters<Fields> p;
+  p.value("weight", &Fields::weight)
+      .above(0)
+      .meaning("factor of this modality's log-likelihood in the sum");
+  return p.specs().front();
+}
+
+}  // namespace
+
+Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
+  Parameters<Options> p;
+  p.input_list("modalities", std::string(EvidenceSet::kPort), {weight_field()})
+      .meaning("what is measured in images, in sum: \"from\" names a modality's node");
+  p.part("shape", "shape", "cylinder").meaning("what is looked for");
+  p.value("cells", &Options::cells)
+      .at_least(1)
+      .at_most(1024)
+      .meaning("cells of the finest level along each axis of the searched area")
+      .source("thesis Table 4.1");
+  p.value("levels", &Options::levels)
+      .at_least(1)
+      .at_most(8)
+      .meaning("levels of the grid; 1: every cell is evaluated")
+      .source("thesis 4.3.1");
+  p.value("branching", &Options::branching)
+      .at_least(2)
+      .at_most(8)
+      .meaning("into how many cells per axis a cell of one level is split on the next")
+      .source("thesis Figure 4.2");
+  p.value("margin_m", &Options::margin_m)
+      .unit("m")
+      .at_least(0)
+      .at_most(100)
+      .meaning(
+          "how far beyond the scene's area is searched; people found there are cut afterwards");
+  p.value("min_inside", &Options::min_inside)
+      .at_least(0)
+      .at_most(1)
+      .meaning("a view tells about a cell when so much of the silhouette's area is in its image");
+  p.value("refine_above", &Options::refine_above)
+      .at_least(0)
+      .meaning(
+          "cells are split where the likelihood exceeds the mean of their level so many "
+          "times; 0: everywhere")
+      .source("thesis 4.3.5");
+  p.value("smoothing_m", &Options::smoothing_m)
+      .unit("m")
+      .at_least(0)
+      .at_most(10)
+      .meaning("standard deviation of the Gaussian on the ground; maxima are local within 3 of it")
+      .source("thesis (4.4), (4.5)");
+  p.choice("maxima", &Options::maxima, {"local", "all"})
+      .meaning(
+          "local: an observation at each local maximum; all: at each evaluated cell, for "
+          "trackers that work on cells")
+      .source("thesis 4.3.6, 6.4");
+  p.value("min_score", &Options::min_score)
+      .meaning("lowest smoothed log-likelihood over that of an empty place, views in sum");
+  p.value("most", &Options::most).at_least(1).meaning("so many of the best observations stay");
+  p.value("max_sigma_m", &Options::max_sigma_m)
+      .unit("m")
+      .above(0)
+      .meaning("largest standard deviation that is read from the likelihood's curvature");
+  p.value("probability", &Options::probability)
+      .meaning("calibration of scores: [score, probability] points, linear between, flat beyond");
+  Declaration<Options> d("hierarchical-grid",
+                         "Finds people by comparing silhouettes on a ground grid, coarse to fine.");
+  return d.source("thesis chapter 4")
+      .output<Observations>("people on the ground, with a box in every view that told")
+      .output<GroundLikelihood>("the finest level's log-likelihoods, before smoothing")
+      .parameters(std::move(p));
+}
+
+HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& context)
+    : options_(options),
+      scene_(context.scene),
+      shape_(context.part<ShapeModel>("shape")),
+      witnesses_(make_witnesses(context.inputs("modalities"))),
+      curve_(options.probability),
+      grid_(make_grid(options, *context.scene)),
+      neighbours_(gaussian_neighbours(grid_.finest(), options.smoothing_m)),
+      hierarchy_(grid_, *scene_) {
+  for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
+}
+
+void HierarchicalGrid::do_finish(std::int64_t /*seen*/) {
+  hierarchy_.compute(*shape_, options_.min_inside);
+  sample();
+}
+
+void HierarchicalGrid::do_save(std::ostream& out) const { hierarchy_.save(out); }
+
+void HierarchicalGrid::do_load(std::istream& in) {
+  hierarchy_.load(in);
+  sample();
+}
+
+void HierarchicalGrid::sample() {
+  search_ = std::make_unique<GridSearch>(grid_, hierarchy_, *shape_, witnesses_,
+                                         scene_->cameras.size(), options_.refine_above);
+}
+
+std::string HierarchicalGrid::do_extra_key() const {
+  std::string bytes;
+  const std::size_t cells = grid_.size(grid_.levels() - 1);
+  for (const Camera& camera : scene_->cameras) {
+    for (const std::size_t cell : {cells / 3, cells / 2, 2 * cells / 3}) {
+      const Pose pose{grid_.position(grid_.levels() - 1, static_cast<CellIndex>(cell)), 0, 1};
+      encode(shape_->silhouette(pose, camera), bytes);
+    }
+  }
+  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return "silhouettes " + std::to_string(hash);
+}
+
+SearchResult HierarchicalGrid::search(const NodeIo& io) const {
+  if (!search_) throw InternalError("the template hierarchy was neither computed nor loaded");
+  std::vector<std::vector<EvidencePtr>> evidence;
+  for (const std::size_t slot : slots_) {
+    evidence.push_back(io.in<EvidenceSet>(slot).views);
+    if (evidence.back().size() != scene_->cameras.size()) {
+      throw InternalError("evidence of " + std::to_string(evidence.back().size()) +
+                          " views in a scene of " + std::to_string(scene_->cameras.size()));
+    }
+  }
+  return search_->search(evidence);
+}
+
+Observations HierarchicalGrid::do_detect(const NodeIo& io) const {
+  return do_detect_all(io).observations;
+}
+
+Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
+  SearchResult result = search(io);
+  LevelLikelihood& finest = result.levels.back();
+  const GroundGrid& grid = grid_.finest();
+  const std::vector<double> surface = smoothed(grid, finest.joint, neighbours_);
+
+  std::vector<CellIndex> found;
+  if (options_.maxima == Maxima::kLocal) {
+    found = local_maxima(grid, surface, finest.evaluated, neighbours_);
+  } else {
+    for (std::size_t cell = 0; cell < surface.size(); ++cell) {
+      if (finest.evaluated[cell] != 0) found.push_back(static_cast<CellIndex>(cell));
+    }
+  }
+  Detected out;
+  out.observations.grid = grid;
+  std::erase_if(found, [&](CellIndex cell) { return !(surface[cell] >= options_.min_score); });
+  std::stable_sort(found.begin(), found.end(),
+                   [&](CellIndex a, CellIndex b) { return surface[a] > surface[b]; });
+  for (const CellIndex cell : found) {
+    if (out.observations.items.size() == static_cast<std::size_t>(options_.most)) break;
+    Observation o = observation_at(cell, surface, finest);
+    if (scene_->area.contains(o.position_m)) out.observations.items.push_back(std::move(o));
+  }
+
+  auto likelihood = std::make_shared<GroundLikelihood>();
+  likelihood->grid = grid;
+  for (std::size_t cell = 0; cell < finest.joint.size(); ++cell) {
+    if (finest.evaluated[cell] == 0) finest.joint[cell] = std::nan("");
+  }
+  likelihood->joint = std::move(finest.joint);
+  likelihood->views = std::move(finest.views);
+  out.likelihood = std::move(likelihood);
+  return out;
+}
+
+Observation HierarchicalGrid::observation_at(CellIndex cell, std::span<const double> surface,
+                                             const LevelLikelihood& finest) const {
+  const GroundGrid& grid = grid_.finest();
+  Observation o;
+  if (options_.maxima == Maxima::kLocal) {
+    const Peak peak = peak_at(grid, surface, cell, options_.max_sigma_m);
+    o.position_m = peak.position_m;
+    o.covariance_m2 = peak.covariance_m2;
+  } else {
+    o.position_m = grid_.position(grid_.levels() - 1, cell);
+    o.covariance_m2 = covariance_of_cell(grid);
+  }
+  o.probability = curve_(surface[cell]);
+  for (std::size_t camera = 0; camera < finest.views.size(); ++camera) {
+    const double view = finest.views[camera][cell];
+    if (!std::isfinite(view)) continue;
+    if (const auto box = body_box(scene_->cameras[camera], o.position_m, shape_->body())) {
+      o.boxes.push_back({camera, *box, view});
+    }
+  }
+  return o;
+}
+
+}  // namespace plaza
