@@ -12,8 +12,10 @@ namespace {
 /// The nested component { "use": NAME, parameters }.
 NamedPart make_part(const nlohmann::json& value, const Trial& trial, BuildContext context);
 
+using Producers = std::map<std::string, std::shared_ptr<Modality>>;
+
 void add_parts(const ComponentDeclaration& declaration, const nlohmann::json& values,
-               const Trial& trial, BuildContext& context) {
+               const Trial& trial, const Producers& producers, BuildContext& context) {
   std::size_t slot = declaration.inputs.size();
   for (const ParameterSpec& p : declaration.parameters) {
     const nlohmann::json& value = values.contains(p.name) ? values.at(p.name) : p.default_value;
@@ -30,8 +32,10 @@ void add_parts(const ComponentDeclaration& declaration, const nlohmann::json& va
       }
     } else if (p.type == ParameterType::kInputList) {
       for (const nlohmann::json& entry : value) {
+        const std::string from = entry.value("from", "above");
+        const auto producer = producers.find(from);
         context.input_lists[p.name].push_back(
-            {slot++, entry.value("from", "above"), nullptr, entry});
+            {slot++, from, producer == producers.end() ? nullptr : producer->second, entry});
       }
     }
   }
@@ -57,18 +61,23 @@ NamedPart make_part(const nlohmann::json& value, const Trial& trial, BuildContex
   values.erase("name");
   context.name = value.value("name", use);
   context.in_order = subject->declaration.memory;
-  add_parts(subject->declaration, values, trial, context);
+  add_parts(subject->declaration, values, trial, {}, context);
   return {context.name, subject->make(plain_values(subject->declaration, values), context)};
 }
 
 }  // namespace
 
 Call::Call(const ComponentDeclaration& declaration, const std::vector<std::string>& inputs,
-           std::int64_t frame, std::int64_t time_ns, const Provider& provider, bool optional_inputs)
+           std::int64_t frame, std::int64_t time_ns, const Provider& provider,
+           const ListProvider& list_provider, bool optional_inputs)
     : io_(frame, time_ns, nullptr, {}, {}) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const bool needed = i >= declaration.inputs.size() || declaration.inputs[i].required;
-    PayloadPtr payload = needed || optional_inputs ? provider(inputs[i], frame) : nullptr;
+    PayloadPtr payload;
+    if (i >= declaration.inputs.size()) {
+      payload = list_provider(i - declaration.inputs.size(), frame);
+    }
+    if (!payload && (needed || optional_inputs)) payload = provider(inputs[i], frame);
     // what is connected but was not emitted is an empty slot, what is not connected is -1
     inputs_.push_back(needed || optional_inputs ? static_cast<int>(slots_.size()) : -1);
     slots_.push_back(std::move(payload));
@@ -90,7 +99,30 @@ Stage::Stage(const Subject& subject, const Trial& trial, std::filesystem::path o
     : subject_(&subject),
       trial_(&trial),
       scene_(trial.scene ? trial.scene : trial.world->scene()),
-      output_folder_(std::move(output_folder)) {}
+      output_folder_(std::move(output_folder)) {
+  make_producers();
+}
+
+void Stage::make_producers() {
+  for (const ParameterSpec& p : declaration().parameters) {
+    if (p.type != ParameterType::kInputList || !trial().values.contains(p.name)) continue;
+    for (const nlohmann::json& entry : trial().values.at(p.name)) {
+      const std::string& from = list_inputs_.emplace_back(entry.value("from", "above"));
+      const auto subject = trial().finder ? trial().finder(from) : std::nullopt;
+      if (!subject || producers_.contains(from)) continue;
+      BuildContext context;
+      context.name = from;
+      context.scene = scene_;
+      context.seed = 7;
+      add_parts(subject->declaration, nlohmann::json::object(), trial(), {}, context);
+      auto modality =
+          std::dynamic_pointer_cast<Modality>(subject->make(nlohmann::json::object(), context));
+      if (!modality) continue;
+      teach(*modality);
+      producers_[from] = std::move(modality);
+    }
+  }
+}
 
 std::shared_ptr<Component> Stage::make_untaught() const {
   BuildContext context;
@@ -99,7 +131,7 @@ std::shared_ptr<Component> Stage::make_untaught() const {
   context.seed = 7;
   context.output_folder = output_folder_;
   context.in_order = declaration().memory;
-  add_parts(declaration(), trial().values, trial(), context);
+  add_parts(declaration(), trial().values, trial(), producers_, context);
   auto component = subject_->make(plain_values(declaration(), trial().values), context);
   if (!component) throw InternalError("nothing was made");
   return component;
@@ -142,14 +174,34 @@ Provider Stage::world_provider() const {
   };
 }
 
-std::unique_ptr<Call> Stage::call(std::int64_t frame, bool optional_inputs) const {
+std::unique_ptr<Call> Stage::make_call(std::int64_t frame, const Provider& provider,
+                                       bool optional_inputs) const {
+  // evidence of the very modality that the component matches with, from the images of this frame
+  // alone
+  const ListProvider evidence_of = [&](std::size_t entry, std::int64_t at) -> PayloadPtr {
+    const auto producer = producers_.find(list_inputs_.at(entry));
+    if (producer == producers_.end()) return nullptr;
+    const PayloadPtr images = provider(std::string(FrameSet::kPort), at);
+    if (!images) return nullptr;
+    const auto& frames = static_cast<const FrameSet&>(*images);
+    auto evidence = std::make_shared<EvidenceSet>();
+    for (std::size_t camera = 0; camera < frames.views.size(); ++camera) {
+      const cv::Mat& image = frames.views[camera];
+      evidence->views.push_back(
+          image.empty() ? nullptr : producer->second->prepare(image, camera, cv::Mat()).evidence);
+    }
+    return evidence;
+  };
   return std::make_unique<Call>(declaration(), inputs(), frame, scene_->time_of_frame(frame),
-                                world_provider(), optional_inputs);
+                                provider, evidence_of, optional_inputs);
+}
+
+std::unique_ptr<Call> Stage::call(std::int64_t frame, bool optional_inputs) const {
+  return make_call(frame, world_provider(), optional_inputs);
 }
 
 std::unique_ptr<Call> Stage::call(std::int64_t frame, const Provider& provider) const {
-  return std::make_unique<Call>(declaration(), inputs(), frame, scene_->time_of_frame(frame),
-                                provider);
+  return make_call(frame, provider, true);
 }
 
 }  // namespace plaza::contract

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,15 @@ namespace plaza::contract {
 
 /// What arrives at an input of a type in a frame.
 using Provider = std::function<PayloadPtr(const std::string& port, std::int64_t frame)>;
+/// What arrives at an input of an input list, by its place among those; null: ask the Provider.
+using ListProvider = std::function<PayloadPtr(std::size_t entry, std::int64_t frame)>;
 
 /// One call of a node, with all that NodeIo points into.
 class Call {
  public:
   Call(const ComponentDeclaration& declaration, const std::vector<std::string>& inputs,
        std::int64_t frame, std::int64_t time_ns, const Provider& provider,
-       bool optional_inputs = true);
+       const ListProvider& list_provider, bool optional_inputs = true);
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
@@ -69,10 +72,19 @@ class Stage {
   Provider world_provider() const;
 
  private:
+  /// Modalities that the trial's input lists name, by "from"; what the finder doesn't know is not
+  /// in it.
+  using Producers = std::map<std::string, std::shared_ptr<Modality>>;
+  void make_producers();
+  std::unique_ptr<Call> make_call(std::int64_t frame, const Provider& provider,
+                                  bool optional_inputs) const;
+
   const Subject* subject_;
   const Trial* trial_;
   std::shared_ptr<const Scene> scene_;
   std::filesystem::path output_folder_;
+  Producers producers_;
+  std::vector<std::string> list_inputs_;  ///< "from" of every entry of input lists, in slot order
 };
 
 void check_source(const Stage& stage, Findings& findings);

@@ -72,7 +72,11 @@ TEST_P(ComponentContractTest, IsKept) {
   ASSERT_FALSE(trials.empty()) << "no trial for component \"" << GetParam()
                                << "\": add one to the table in tests/contract/plugins/trials.cc";
   for (Trial trial : trials) {
-    trial.finder = find_subject;
+    // a trial may bring doubles for what stands around the component
+    trial.finder = [own = trial.finder](const std::string& name) -> std::optional<Subject> {
+      std::optional<Subject> subject = own ? own(name) : std::nullopt;
+      return subject ? subject : find_subject(name);
+    };
     expect_kept(*find_subject(GetParam()), trial);
   }
 }

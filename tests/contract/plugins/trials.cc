@@ -7,6 +7,8 @@
 #include <opencv2/videoio.hpp>
 #include <utility>
 
+#include "tests/support/overlap_modality.h"
+
 namespace plaza::contract {
 namespace {
 
@@ -168,6 +170,29 @@ const std::map<std::string, Maker>& table() {
        [](const fs::path&) {
          std::vector<Trial> trials = {Trial(), trial("two views", {{"min_views", 2}})};
          for (Trial& t : trials) t.world = world_of_single_views();
+         return trials;
+       }},
+      {"hierarchical-grid",
+       [](const fs::path&) {
+         const Values modalities = Values::array({{{"from", "overlap"}, {"weight", 2.0}}});
+         std::vector<Trial> trials = {
+             trial("local maxima", {{"modalities", modalities}, {"cells", 20}, {"min_score", 0.3}}),
+             trial("all cells", {{"modalities", modalities},
+                                 {"cells", 12},
+                                 {"levels", 2},
+                                 {"maxima", "all"},
+                                 {"shape",
+                                  {{"use", "box-parallelepiped"},
+                                   {"length_m", 0.5},
+                                   {"width_m", 0.5},
+                                   {"height_m", 1.75}}}})};
+         for (Trial& t : trials) {
+           t.world = std::make_shared<World>(3, 12);
+           t.finder = [](const std::string& name) -> std::optional<Subject> {
+             if (name != "overlap") return std::nullopt;
+             return subject_of<test::OverlapModality>();
+           };
+         }
          return trials;
        }},
       // associators

@@ -37,7 +37,8 @@ struct Trial {
   std::string label = "defaults";
   /// Its parameters as a pipeline would give them; what is absent has its default. Parts are
   /// objects { "use": NAME, ... }, made with `finder`; input lists are arrays of { "from": ...,
-  /// fields }.
+  /// fields }. A modality that `finder` knows by the name after "from" is made, taught, and
+  /// prepares the evidence that arrives there.
   nlohmann::json values = nlohmann::json::object();
   std::shared_ptr<const World> world = std::make_shared<World>();
   /// The scene that the component is told; the world's own when null (sources read files of their
