@@ -45,11 +45,12 @@ double log_mean(std::span<const double> values) {
 
 GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy,
                        const ShapeModel& model, std::vector<Witness> witnesses, std::size_t cameras,
-                       double refine_above)
+                       double refine_above, int spread)
     : grid_(&grid),
       witnesses_(std::move(witnesses)),
       cameras_(cameras),
-      refine_above_(refine_above) {
+      refine_above_(refine_above),
+      spread_(spread) {
   for (std::size_t level = 0; level < grid.levels(); ++level) {
     auto& batches = batches_.emplace_back(witnesses_.size() * cameras);
     auto& templates = template_of_cell_.emplace_back(cameras);
@@ -81,11 +82,26 @@ std::vector<CellIndex> GridSearch::wanted_cells(std::size_t level,
                                                 const LevelLikelihood* parents) const {
   if (parents == nullptr || refine_above_ == 0) return seen_cells_[level];
   // where all cells are alike, rounding must not lift them above their own mean
-  const double limit = log_mean(parents->joint) + std::log(refine_above_) + 1e-9;
+  const double limit = log_mean(parents->per_view) + std::log(refine_above_) + 1e-9;
+  const GroundGrid& above = grid_->grid(level - 1);
+  std::vector<char> split(parents->per_view.size(), 0);
+  for (int row = 0; row < above.rows; ++row) {
+    for (int column = 0; column < above.columns; ++column) {
+      const double value =
+          parents->per_view[static_cast<std::size_t>(row * above.columns + column)];
+      if (std::isfinite(value) && !(value > limit)) continue;
+      const int reach = std::isfinite(value) ? spread_ : 0;
+      for (int r = std::max(row - reach, 0); r <= std::min(row + reach, above.rows - 1); ++r) {
+        for (int c = std::max(column - reach, 0); c <= std::min(column + reach, above.columns - 1);
+             ++c) {
+          split[static_cast<std::size_t>(r * above.columns + c)] = 1;
+        }
+      }
+    }
+  }
   std::vector<CellIndex> wanted;
   for (const CellIndex cell : seen_cells_[level]) {
-    const double parent = parents->joint[grid_->parent(level, cell)];
-    if (!std::isfinite(parent) || parent > limit) wanted.push_back(cell);
+    if (split[grid_->parent(level, cell)] != 0) wanted.push_back(cell);
   }
   return wanted;
 }
@@ -145,16 +161,19 @@ SearchResult GridSearch::search(std::span<const std::vector<EvidencePtr>> eviden
 
     LevelLikelihood here;
     here.joint.assign(grid_->size(level), kUnknown);
+    here.per_view = here.joint;
     here.evaluated.assign(grid_->size(level), 0);
     here.views.assign(cameras_, Values(grid_->size(level), kUnknown));
     if (parents != nullptr) {
       for (std::size_t cell = 0; cell < here.joint.size(); ++cell) {
-        here.joint[cell] = parents->joint[grid_->parent(level, static_cast<CellIndex>(cell))];
+        const CellIndex parent = grid_->parent(level, static_cast<CellIndex>(cell));
+        here.joint[cell] = parents->joint[parent];
+        here.per_view[cell] = parents->per_view[parent];
       }
     }
     for (const CellIndex cell : wanted) {
       double sum = 0;
-      bool told = false;
+      int told = 0;
       for (std::size_t camera = 0; camera < cameras_; ++camera) {
         double view = 0;
         bool view_told = false;
@@ -167,10 +186,11 @@ SearchResult GridSearch::search(std::span<const std::vector<EvidencePtr>> eviden
         if (!view_told) continue;
         here.views[camera][cell] = view;
         sum += view;
-        told = true;
+        ++told;
       }
-      here.joint[cell] = told ? sum : kUnknown;
-      here.evaluated[cell] = told ? 1 : 0;
+      here.joint[cell] = told > 0 ? sum : kUnknown;
+      here.per_view[cell] = told > 0 ? sum / told : kUnknown;
+      here.evaluated[cell] = told > 0 ? 1 : 0;
     }
     result.levels.push_back(std::move(here));
   }

@@ -20,7 +20,8 @@ struct LevelLikelihood {
   /// [cell]: sum over the views and modalities that can tell; inherited from the parent where the
   /// cell itself was not evaluated; NaN where nothing can tell.
   std::vector<double> joint;
-  std::vector<char> evaluated;             ///< [cell]: 1 where the joint value is the cell's own
+  std::vector<double> per_view;            ///< [cell]: joint over the number of views that told
+  std::vector<char> evaluated;             ///< [cell]: 1 where the values are the cell's own
   std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
 };
 
@@ -38,13 +39,18 @@ struct SearchResult {
 /// changes nothing between cells that the same views see, so with one view, or where all views see
 /// all cells, this is the thesis's product. It makes the rest comparable: a view that can't tell
 /// adds 0, what an empty place would have added, so that a cell gains nothing by being seen less.
+///
+/// The rule that decides where to go on compares per_view, the geometric mean of the views'
+/// likelihoods, with its mean over the level. With one view that is the rule as it stands; with
+/// several, means of products are means of the one best person, who would hide all the others.
 class GridSearch {
  public:
   /// Samples every modality's templates, once for all frames. `refine_above`: cells of the next
-  /// level are evaluated where the parent's likelihood exceeds the mean of its level so many times;
-  /// 0: everywhere. Grid and hierarchy must outlive the search.
+  /// level are evaluated where the parent's likelihood exceeds the mean of its level so many times,
+  /// or that of a parent at most `spread` cells beside it; 0: everywhere. Grid and hierarchy must
+  /// outlive the search.
   GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy, const ShapeModel& model,
-             std::vector<Witness> witnesses, std::size_t cameras, double refine_above);
+             std::vector<Witness> witnesses, std::size_t cameras, double refine_above, int spread);
 
   /// evidence[witness][camera]; null where the view has none. Thread-safe.
   SearchResult search(std::span<const std::vector<EvidencePtr>> evidence) const;
@@ -61,6 +67,7 @@ class GridSearch {
   std::vector<Witness> witnesses_;
   std::size_t cameras_;
   double refine_above_;
+  int spread_;
   /// [level][witness * cameras + camera]
   std::vector<std::vector<std::unique_ptr<TemplateBatch>>> batches_;
   /// [level][camera][cell]: index of the template in the batch; kUnseen: the view doesn't see it

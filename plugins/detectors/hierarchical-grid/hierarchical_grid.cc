@@ -59,6 +59,15 @@ ParameterSpec weight_field() {
   return p.specs().front();
 }
 
+/// What an observation is judged by: the smoothed log-likelihood over that of an empty place, per
+/// view that told. Sums grow with the views that look at a place whether they agree or not.
+double score_of(CellIndex cell, std::span<const double> surface, const LevelLikelihood& level) {
+  const auto told =
+      std::count_if(level.views.begin(), level.views.end(),
+                    [&](const std::vector<double>& view) { return std::isfinite(view[cell]); });
+  return surface[cell] / static_cast<double>(std::max<std::ptrdiff_t>(told, 1));
+}
+
 }  // namespace
 
 Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
@@ -91,12 +100,22 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .at_least(0)
       .at_most(1)
       .meaning("a view tells about a cell when so much of the silhouette's area is in its image");
+  p.value("occluders", &Options::occluders)
+      .meaning(
+          "whether silhouettes lack what the scene's occluders hide; else hidden parts count "
+          "as parts that nobody sees a person in");
   p.value("refine_above", &Options::refine_above)
       .at_least(0)
       .meaning(
           "cells are split where the likelihood exceeds the mean of their level so many "
           "times; 0: everywhere")
       .source("thesis 4.3.5");
+  p.value("spread", &Options::spread)
+      .at_least(0)
+      .at_most(100)
+      .meaning(
+          "so many cells around one that is split are split too, since a summit on the border "
+          "of what was evaluated is no summit; 0: the thesis's rule alone");
   p.value("smoothing_m", &Options::smoothing_m)
       .unit("m")
       .at_least(0)
@@ -109,7 +128,9 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
           "trackers that work on cells")
       .source("thesis 4.3.6, 6.4");
   p.value("min_score", &Options::min_score)
-      .meaning("lowest smoothed log-likelihood over that of an empty place, views in sum");
+      .meaning(
+          "lowest score: smoothed log-likelihood over that of an empty place, mean of the "
+          "views that tell");
   p.value("most", &Options::most).at_least(1).meaning("so many of the best observations stay");
   p.value("max_sigma_m", &Options::max_sigma_m)
       .unit("m")
@@ -138,7 +159,7 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
 }
 
 void HierarchicalGrid::do_finish(std::int64_t /*seen*/) {
-  hierarchy_.compute(*shape_, options_.min_inside);
+  hierarchy_.compute(*shape_, options_.min_inside, options_.occluders);
   sample();
 }
 
@@ -150,8 +171,9 @@ void HierarchicalGrid::do_load(std::istream& in) {
 }
 
 void HierarchicalGrid::sample() {
-  search_ = std::make_unique<GridSearch>(grid_, hierarchy_, *shape_, witnesses_,
-                                         scene_->cameras.size(), options_.refine_above);
+  search_ =
+      std::make_unique<GridSearch>(grid_, hierarchy_, *shape_, witnesses_, scene_->cameras.size(),
+                                   options_.refine_above, options_.spread);
 }
 
 std::string HierarchicalGrid::do_extra_key() const {
@@ -201,7 +223,9 @@ Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
   }
   Detected out;
   out.observations.grid = grid;
-  std::erase_if(found, [&](CellIndex cell) { return !(surface[cell] >= options_.min_score); });
+  std::erase_if(found, [&](CellIndex cell) {
+    return !(score_of(cell, surface, finest) >= options_.min_score);
+  });
   std::stable_sort(found.begin(), found.end(),
                    [&](CellIndex a, CellIndex b) { return surface[a] > surface[b]; });
   for (const CellIndex cell : found) {
@@ -233,7 +257,7 @@ Observation HierarchicalGrid::observation_at(CellIndex cell, std::span<const dou
     o.position_m = grid_.position(grid_.levels() - 1, cell);
     o.covariance_m2 = covariance_of_cell(grid);
   }
-  o.probability = curve_(surface[cell]);
+  o.probability = curve_(score_of(cell, surface, finest));
   for (std::size_t camera = 0; camera < finest.views.size(); ++camera) {
     const double view = finest.views[camera][cell];
     if (!std::isfinite(view)) continue;

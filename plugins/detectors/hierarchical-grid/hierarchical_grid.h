@@ -27,10 +27,12 @@ class HierarchicalGrid final : public Detector, private Learner {
     int branching = 2;
     double margin_m = 1.5;
     double min_inside = 0.3;
+    bool occluders = true;
     double refine_above = 1;
-    double smoothing_m = 0.2;
+    int spread = 1;
+    double smoothing_m = 0.22;
     Maxima maxima = Maxima::kLocal;
-    double min_score = 1;
+    double min_score = 1.5;
     int most = 100;
     double max_sigma_m = 0.5;
     std::vector<std::vector<double>> probability = {

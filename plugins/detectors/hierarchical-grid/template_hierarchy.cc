@@ -9,6 +9,7 @@
 
 #include "plaza/core/error.h"
 #include "plaza/core/parallel.h"
+#include "plugins/detectors/hierarchical-grid/occlusion.h"
 #include "plugins/detectors/hierarchical-grid/silhouette_codec.h"
 
 namespace plaza {
@@ -50,9 +51,15 @@ std::string read_bytes(std::istream& in, std::uint64_t size) {
 
 }  // namespace
 
-void TemplateHierarchy::compute(const ShapeModel& model, double min_inside) {
+void TemplateHierarchy::compute(const ShapeModel& model, double min_inside, bool use_occluders) {
   views_.assign(scene_->cameras.size(), std::vector<LevelTemplates>(grid_->levels()));
   for (std::size_t camera = 0; camera < views_.size(); ++camera) {
+    std::vector<OccluderPolygon> occluders;
+    for (const StaticOccluder& o : scene_->occluders) {
+      if (use_occluders && o.camera == scene_->cameras[camera].name()) {
+        occluders.push_back(o.polygon_px);
+      }
+    }
     for (std::size_t level = 0; level < grid_->levels(); ++level) {
       const std::size_t cells = grid_->size(level);
       std::vector<LevelTemplates> parts((cells + kChunk - 1) / kChunk);
@@ -60,8 +67,9 @@ void TemplateHierarchy::compute(const ShapeModel& model, double min_inside) {
         LevelTemplates& out = parts[part];
         for (std::size_t i = part * kChunk; i < std::min(cells, (part + 1) * kChunk); ++i) {
           const auto cell = static_cast<CellIndex>(i);
-          const Silhouette s =
+          Silhouette s =
               model.silhouette({grid_->position(level, cell), 0, 1}, scene_->cameras[camera]);
+          if (!occluders.empty()) s = without_hidden(s, occluders);
           if (s.spans.empty() || s.inside_share < min_inside) continue;
           out.cells.push_back(cell);
           out.offsets.push_back(out.bytes.size());

@@ -25,9 +25,10 @@ class TemplateHierarchy {
   /// `grid` and `scene` are kept by reference and must outlive the hierarchy.
   TemplateHierarchy(const StateGrid& grid, const Scene& scene) : grid_(&grid), scene_(&scene) {}
 
-  /// Projects the model everywhere. A camera sees a cell when at least `min_inside` of the
-  /// silhouette's area is in its image.
-  void compute(const ShapeModel& model, double min_inside);
+  /// Projects the model everywhere; what the scene's occluders hide is left out where
+  /// `use_occluders`. A camera sees a cell when at least `min_inside` of the silhouette's area is
+  /// in its image and not hidden.
+  void compute(const ShapeModel& model, double min_inside, bool use_occluders);
   const LevelTemplates& templates(std::size_t camera, std::size_t level) const {
     return views_[camera][level];
   }

@@ -24,11 +24,13 @@ std::vector<double> surface_of(double (*f)(double x, double y)) {
 }
 
 TEST(Smoothed, IsTheWeightedMeanOfLikelihoods) {
-  const auto neighbours = gaussian_neighbours(kGrid, 0.3);
+  const auto neighbours = gaussian_neighbours(kGrid, 0.2);  // reaches 1 column and 2 rows
   std::vector<double> log_likelihood(kCells, -4);
   log_likelihood[at(4, 3)] = 0;
   const auto s = smoothed(kGrid, log_likelihood, neighbours);
   for (const Neighbour& n : neighbours) {
+    // a row further the kernel would reach beyond the border
+    if (std::abs(n.rows) > 1) continue;
     const double expected = std::log(std::exp(-4) * (1 - n.weight) + n.weight);
     EXPECT_NEAR(s[at(4 - n.columns, 3 - n.rows)], expected, 1e-12);
   }

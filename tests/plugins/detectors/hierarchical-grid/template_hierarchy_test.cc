@@ -13,7 +13,7 @@
 namespace plaza {
 namespace {
 
-struct Setup {
+struct Place {
   std::shared_ptr<Scene> scene = testing::round_scene(2);
   StateGrid grid{scene->area, 8, 2, 2};
   Cylinder shape{{}, BuildContext{}};
@@ -32,7 +32,7 @@ void expect_near(const Silhouette& a, const Silhouette& b) {
 }
 
 TEST(SilhouetteCodec, KeepsWhatMatters) {
-  const Setup s;
+  const Place s;
   std::string bytes;
   std::vector<Silhouette> originals;
   for (const double x : {-3.0, 0.5, 40.0}) {  // the last one is out of sight
@@ -47,7 +47,7 @@ TEST(SilhouetteCodec, KeepsWhatMatters) {
 }
 
 TEST(SilhouetteCodec, RefusesBytesThatAreNoSilhouette) {
-  const Setup s;
+  const Place s;
   std::string bytes;
   encode(s.shape.silhouette({}, s.scene->cameras[0]), bytes);
   for (std::size_t length = 0; length < bytes.size(); length += 7) {
@@ -59,8 +59,8 @@ TEST(SilhouetteCodec, RefusesBytesThatAreNoSilhouette) {
 }
 
 TEST(TemplateHierarchy, HoldsTheModelWhereverItIsSeen) {
-  Setup s;
-  s.hierarchy.compute(s.shape, 0.9);
+  Place s;
+  s.hierarchy.compute(s.shape, 0.9, true);
   for (std::size_t camera = 0; camera < 2; ++camera) {
     for (std::size_t level = 0; level < 2; ++level) {
       const LevelTemplates& t = s.hierarchy.templates(camera, level);
@@ -81,8 +81,8 @@ TEST(TemplateHierarchy, HoldsTheModelWhereverItIsSeen) {
 }
 
 TEST(TemplateHierarchy, IsTheSameAfterSavingAndLoading) {
-  Setup s, other;
-  s.hierarchy.compute(s.shape, 0.3);
+  Place s, other;
+  s.hierarchy.compute(s.shape, 0.3, true);
   std::stringstream file;
   s.hierarchy.save(file);
   other.hierarchy.load(file);
@@ -96,13 +96,13 @@ TEST(TemplateHierarchy, IsTheSameAfterSavingAndLoading) {
 }
 
 TEST(TemplateHierarchy, RefusesAnyDamage) {
-  Setup s;
-  s.hierarchy.compute(s.shape, 0.3);
+  Place s;
+  s.hierarchy.compute(s.shape, 0.3, true);
   std::ostringstream file;
   s.hierarchy.save(file);
   const std::string good = file.str();
   const auto load = [&](const std::string& bytes) {
-    Setup fresh;
+    Place fresh;
     std::istringstream in(bytes);
     fresh.hierarchy.load(in);
   };
@@ -119,7 +119,7 @@ TEST(TemplateHierarchy, RefusesAnyDamage) {
   length[27 + 16 + 5] = '\x7f';  // the count of cells
   EXPECT_THROW(load(length), Error);
   // another grid
-  Setup small;
+  Place small;
   StateGrid grid(small.scene->area, 4, 2, 2);
   TemplateHierarchy hierarchy(grid, *small.scene);
   std::istringstream in(good);
@@ -127,8 +127,8 @@ TEST(TemplateHierarchy, RefusesAnyDamage) {
 }
 
 TEST(StoredShape, ServesWhatIsStoredAndAsksForTheRest) {
-  Setup s;
-  s.hierarchy.compute(s.shape, 0.3);
+  Place s;
+  s.hierarchy.compute(s.shape, 0.3, true);
   const Camera& camera = s.scene->cameras[0];
   const LevelTemplates& t = s.hierarchy.templates(0, 1);
   const StoredShape stored(s.shape, s.grid, 1, t);
