@@ -81,7 +81,9 @@ std::unique_ptr<TemplateBatch> ColorModality::do_sample(const ShapeModel& model,
                                                         std::size_t camera) const {
   const Camera& c = scene().cameras[camera];
   auto batch = std::make_unique<color::SpanTemplates>(cv::Size(c.width(), c.height()));
-  for (const Pose& pose : poses) batch->add(model.silhouette(pose, c), options_.ring);
+  for (const Pose& pose : poses) {
+    batch->add(model.silhouette(pose, c), {.gap = options_.gap, .width = options_.ring});
+  }
   return batch;
 }
 
@@ -241,6 +243,10 @@ Declaration<ColorModality::Options> ColorModality::declare() {
       .meaning(
           "share of foreground above which a view's background is taken for invalid (light or "
           "camera changed) and the view can't tell");
+  p.value("gap", &Options::gap)
+      .at_least(0)
+      .at_most(1)
+      .meaning("distance of the ring from the silhouette, as a share of the silhouette's height");
   p.value("ring", &Options::ring)
       .at_least(0)
       .at_most(1)

@@ -19,8 +19,9 @@ namespace plaza {
 /// (thesis 5.4.1; Griesser et al. 2005), against a background that was learned before the stream.
 /// *sample* turns silhouettes into spans with a ring around them.
 ///
-/// *match* compares occupancy, the share of foreground inside the silhouette less its share in the
-/// ring. Its model: where a person stands, the occupancy is 1 less a half-Gaussian deviation,
+/// *match* compares occupancy, the share of foreground inside the silhouette less its share in a
+/// ring around it, with a gap for arms and for what a round model leaves out. Its model: where a
+/// person stands, the occupancy is 1 less a half-Gaussian deviation,
 ///     log L = -(1 - occupancy)^2 / (2 occupancy_sigma^2),
 /// 0 for a filled silhouette in an empty surrounding, -1 / (2 sigma^2) for background (occupancy 0)
 /// as well as for a place amid a larger foreground, and less where the ring is fuller than the
@@ -38,11 +39,12 @@ class ColorModality final : public Modality, private Learner {
     double least_noise = 2.5;
     double threshold = 4;
     double neighbourhood = 0.5;
-    double previous = 0.2;
+    double previous = 0.4;
     int iterations = 4;
     double most_foreground = 0.7;
-    double ring = 0.08;
-    double occupancy_sigma = 0.35;
+    double gap = 0.06;
+    double ring = 0.06;
+    double occupancy_sigma = 0.25;
     double least_visible = 0.3;
     Learning background = Learning::kPeopleFree;
     std::int64_t background_every = 5;

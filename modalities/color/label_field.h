@@ -10,7 +10,7 @@ namespace plaza::color {
 struct LabelFieldOptions {
   double threshold = 4;        ///< strength of change, >= 0
   double neighbourhood = 0.5;  ///< per neighbour, >= 0
-  double previous = 0.2;       ///< per pixel of the window, >= 0
+  double previous = 0.4;       ///< per pixel of the window, >= 0
   int iterations = 4;          ///< >= 1
 };
 

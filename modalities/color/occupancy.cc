@@ -70,16 +70,23 @@ std::uint32_t SpanTemplates::append(const std::vector<RowSpan>& spans) {
   return static_cast<std::uint32_t>(spans_.size());
 }
 
-void SpanTemplates::add(const Silhouette& silhouette, double ring) {
+void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
   SpanTemplate t;
   t.inner = static_cast<std::uint32_t>(spans_.size());
-  t.outer = append(silhouette.spans);
+  t.near = t.outer = append(silhouette.spans);
   t.inner_area = area(silhouette.spans);
   if (t.inner_area > 0) {
-    const int radius = std::max(1, static_cast<int>(std::lround(ring * silhouette.box.height)));
-    const std::vector<RowSpan> around = dilated(silhouette.spans, radius, image_);
-    append(around);
-    t.outer_area = area(around);
+    const auto pixels = [&](double share) {
+      return static_cast<int>(std::lround(share * silhouette.box.height));
+    };
+    const int gap = pixels(ring.gap);
+    const std::vector<RowSpan> near = dilated(silhouette.spans, gap, image_);
+    const std::vector<RowSpan> all =
+        dilated(silhouette.spans, gap + std::max(1, pixels(ring.width)), image_);
+    t.outer = append(near);
+    append(all);
+    t.near_area = area(near);
+    t.outer_area = area(all);
     t.full_area = static_cast<float>(t.inner_area / std::max(silhouette.inside_share, 1e-9));
   }
   t.end = static_cast<std::uint32_t>(spans_.size());
@@ -99,18 +106,18 @@ std::optional<double> occupancy(const SpanTemplates& templates, std::size_t inde
     return sum;
   };
   std::uint32_t inside = t.inner_area;
-  std::uint32_t all = t.outer_area;
+  std::uint32_t ring = t.outer_area - t.near_area;
   if (!explained.empty()) {
-    inside -= count(explained, t.inner, t.outer);
-    all -= count(explained, t.outer, t.end);
+    inside -= count(explained, t.inner, t.near);
+    ring -= count(explained, t.outer, t.end) - count(explained, t.near, t.outer);
   }
   if (inside == 0 || inside < least_visible * static_cast<double>(t.full_area)) return std::nullopt;
-  const std::uint32_t set_inside = count(foreground, t.inner, t.outer);
-  const std::uint32_t ring = all - inside;
+  const std::uint32_t set_inside = count(foreground, t.inner, t.near);
   const double share = static_cast<double>(set_inside) / inside;
   if (ring == 0) return share;
-  const std::uint32_t set_all = count(foreground, t.outer, t.end);
-  return share - static_cast<double>(set_all - set_inside) / ring;
+  const std::uint32_t set_ring =
+      count(foreground, t.outer, t.end) - count(foreground, t.near, t.outer);
+  return share - static_cast<double>(set_ring) / ring;
 }
 
 }  // namespace plaza::color

@@ -37,14 +37,22 @@ struct CountSpan {
   std::uint32_t begin = 0, end = 0;
 };
 
-/// One template: the silhouette's spans, then those of the silhouette with a ring around it, both
-/// cut to the image.
+/// How the ring around a silhouette lies, as shares of the silhouette's height.
+struct RingShape {
+  double gap = 0;    ///< between silhouette and ring; 0: none
+  double width = 0;  ///< of the ring; at least one pixel
+};
+
+/// One template: the spans of the silhouette, then those of all that lies within the gap, then
+/// those of all that lies within the ring, each cut to the image.
 struct SpanTemplate {
   std::uint32_t inner = 0;       ///< first span of the silhouette
-  std::uint32_t outer = 0;       ///< first span of the silhouette and ring
+  std::uint32_t near = 0;        ///< first span of the silhouette and gap
+  std::uint32_t outer = 0;       ///< first span of the silhouette, gap and ring
   std::uint32_t end = 0;         ///< behind the last
   std::uint32_t inner_area = 0;  ///< pixels
-  std::uint32_t outer_area = 0;  ///< pixels, the silhouette included
+  std::uint32_t near_area = 0;   ///< pixels, the silhouette included
+  std::uint32_t outer_area = 0;  ///< pixels, silhouette and gap included
   float full_area = 0;           ///< pixels of the silhouette, parts outside the image included
 };
 
@@ -52,9 +60,7 @@ struct SpanTemplate {
 class SpanTemplates final : public TemplateBatch {
  public:
   explicit SpanTemplates(cv::Size image) : image_(image) {}
-  /// The ring is as wide as `ring` times the height of the silhouette's box, at least one pixel,
-  /// to all sides.
-  void add(const Silhouette& silhouette, double ring);
+  void add(const Silhouette& silhouette, const RingShape& ring);
 
   std::size_t size() const override { return templates_.size(); }
   cv::Size image() const { return image_; }

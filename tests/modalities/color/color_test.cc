@@ -43,6 +43,7 @@ class ColorTest : public ::testing::Test {
  protected:
   ColorTest() {
     resize(80, 60);
+    options_.gap = 0;
     options_.ring = 0.2;  // people of 30 pixels only: windows of 3 x 3 widen them by one all around
   }
 
@@ -139,6 +140,20 @@ TEST_F(ColorTest, AWiderRingSeesTheNeighbour) {
   const auto wide = taught();
   const double crowded = matched(*wide, wide->prepare(image, 0).evidence, {at(20, 15)})[0];
   EXPECT_GT(alone, crowded);
+}
+
+TEST_F(ColorTest, AGapForgivesWhatStandsOut) {
+  cv::Mat image = with_people({{20, 15}});
+  image(cv::Rect(17, 20, 16, 8)).setTo(cv::Scalar(20, 22, 25));  // arms
+  double last = -1e9;
+  for (const double gap : {0.0, 0.1, 0.2}) {
+    options_.gap = gap;
+    const auto modality = taught();
+    const double now = matched(*modality, modality->prepare(image, 0).evidence, {at(20, 15)})[0];
+    EXPECT_GT(now, last) << gap;
+    last = now;
+  }
+  EXPECT_NEAR(last, 0, 0.02);
 }
 
 TEST_F(ColorTest, ExplainedPeopleFeedNobodyElse) {

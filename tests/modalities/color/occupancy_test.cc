@@ -47,25 +47,28 @@ Silhouette random_silhouette(std::mt19937& random) {
   return s;
 }
 
-std::optional<double> brute_force(const Silhouette& s, int radius, const cv::Mat& foreground,
-                                  const cv::Mat& explained, double least_visible) {
+std::optional<double> brute_force(const Silhouette& s, int gap, int radius,
+                                  const cv::Mat& foreground, const cv::Mat& explained,
+                                  double least_visible) {
   const cv::Mat inside = painted(s.spans);
   double in = 0, in_set = 0, ring = 0, ring_set = 0, full = 0;
   for (int y = 0; y < kImage.height; ++y) {
     for (int x = 0; x < kImage.width; ++x) {
       full += inside.at<uchar>(y, x) != 0;
       if (explained.at<uchar>(y, x) != 0) continue;
-      bool near = false;
+      bool near = false, in_gap = false;
       for (int v = std::max(y - radius, 0); v <= std::min(y + radius, kImage.height - 1); ++v) {
         for (int u = std::max(x - radius, 0); u <= std::min(x + radius, kImage.width - 1); ++u) {
-          near = near || inside.at<uchar>(v, u) != 0;
+          if (inside.at<uchar>(v, u) == 0) continue;
+          near = true;
+          in_gap = in_gap || (std::abs(u - x) <= gap && std::abs(v - y) <= gap);
         }
       }
       const bool set = foreground.at<uchar>(y, x) != 0;
       if (inside.at<uchar>(y, x) != 0) {
         ++in;
         in_set += set;
-      } else if (near) {
+      } else if (near && !in_gap) {
         ++ring;
         ring_set += set;
       }
@@ -81,15 +84,16 @@ TEST(OccupancyTest, EqualsCountingPixelByPixel) {
   int told = 0, untold = 0;
   for (std::uint32_t i = 0; i < 200; ++i) {
     const Silhouette s = random_silhouette(random);
-    const double ring = 0.05 + 0.1 * (i % 4);
-    const int radius = std::max(1, static_cast<int>(std::lround(ring * s.box.height)));
+    const RingShape ring{.gap = 0.06 * (i % 3), .width = 0.05 + 0.1 * (i % 4)};
+    const int gap = static_cast<int>(std::lround(ring.gap * s.box.height));
+    const int radius = gap + std::max(1, static_cast<int>(std::lround(ring.width * s.box.height)));
     SpanTemplates templates(kImage);
     templates.add(random_silhouette(random), ring);
     templates.add(s, ring);
     const cv::Mat explained = random_mask(i + 1000, i % 3 == 0 ? 0 : 60);
     cv::Mat foreground = random_mask(i, 40);
     foreground.setTo(cv::Scalar(0), explained);
-    const auto expected = brute_force(s, radius, foreground, explained, 0.4);
+    const auto expected = brute_force(s, gap, radius, foreground, explained, 0.4);
     const auto actual =
         occupancy(templates, 1, RowCounts(foreground),
                   cv::countNonZero(explained) == 0 ? RowCounts() : RowCounts(explained), 0.4);
@@ -109,8 +113,8 @@ TEST(OccupancyTest, PartsOutsideTheImageAreNotVisible) {
   s.box = {-6, 0, 10, 10};
   s.inside_share = 0.4;
   SpanTemplates templates(kImage);
-  templates.add(s, 0.1);
-  templates.add(Silhouette(), 0.1);  // not visible at all
+  templates.add(s, {0, 0.1});
+  templates.add(Silhouette(), {0, 0.1});  // not visible at all
   const RowCounts counts(cv::Mat(kImage, CV_8UC1, cv::Scalar(255)));
   EXPECT_DOUBLE_EQ(occupancy(templates, 0, counts, {}, 0.3).value(), 0);
   EXPECT_FALSE(occupancy(templates, 0, counts, {}, 0.5).has_value());
@@ -145,7 +149,7 @@ TEST(OccupancyTest, FilledInEmptySurroundingsIsOneAndTheOtherWayRoundMinusOne) {
   s.box = {10, 10, 6, 10};
   s.inside_share = 1;
   SpanTemplates templates(kImage);
-  templates.add(s, 0.2);
+  templates.add(s, {0, 0.2});
   const cv::Mat inside = painted(s.spans);
   const cv::Mat outside = 255 - inside;
   EXPECT_DOUBLE_EQ(occupancy(templates, 0, RowCounts(inside), {}, 0).value(), 1);
