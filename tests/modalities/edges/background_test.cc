@@ -136,6 +136,30 @@ TEST(BackgroundLearner, AViewWithoutImagesIsUnknown) {
   EXPECT_TRUE(std::isnan(out[0]));
 }
 
+TEST(BackgroundLearner, ACameraThatWasSwappedDoesNoHarm) {
+  const auto scene = scene_of({160, 120});
+  BuildContext context;
+  context.name = "edges";
+  context.scene = scene;
+  Edges::Options options;
+  options.min_points = 1;
+  Edges edges(options, context);
+  cv::Mat here(120, 160, CV_8UC3), elsewhere(120, 160, CV_8UC3);
+  cv::RNG(1).fill(here, cv::RNG::UNIFORM, 0, 256);
+  cv::RNG(2).fill(elsewhere, cv::RNG::UNIFORM, 0, 256);
+  learn(*edges.learner(), {here});  // from one frame only
+  const auto foreground = [&](const cv::Mat& image) {
+    const auto prepared = edges.prepare(image, 0);
+    std::vector<double> out(1);
+    const std::vector<Pose> poses = {{{0, 0}, 0, 1}};
+    edges.match(*prepared.evidence, *edges.sample(test::UprightBox(), poses, 0), out);
+    EXPECT_TRUE(out[0] <= 0 && out[0] >= -4.5) << out[0];
+    return dynamic_cast<const EdgeEvidence&>(*prepared.evidence).block().points.size();
+  };
+  EXPECT_EQ(foreground(here), 0u) << "what was learned is background";
+  EXPECT_GT(foreground(elsewhere), 1000u);
+}
+
 std::string saved(const Learner& learner) {
   std::ostringstream out;
   learner.save(out);
