@@ -95,7 +95,7 @@ Section EvidencePictures::surface_section(const NodeIo& io) const {
   return {
       "ground",
       {{likelihood_surface(likelihood->grid, relative_likelihood(likelihood->joint), {1200, 800}),
-        "likelihood-surface", "joint likelihood over the ground, as a share of the best cell's"}}};
+        "likelihood-surface", "joint likelihood, share of the best cell's"}}};
 }
 
 void EvidencePictures::write_section(const Section& section, const fs::path& folder) const {

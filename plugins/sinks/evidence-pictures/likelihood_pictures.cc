@@ -34,7 +34,7 @@ class Slanted {
     centre_m_ = corner_of(grid, 0.5 * (grid.columns - 1), 0.5 * (grid.rows - 1));
     const double across = (w + h) * kCos;  // of the ground's rhombus
     const double deep = (w + h) * kSin;
-    lift_ = 0.55 * across;
+    lift_ = 0.3 * across;
     scale_ = std::min(0.86 * size.width / across, 0.84 * size.height / (deep + lift_));
     origin_ = {0.5 * size.width, 0.5 * (size.height + scale_ * lift_)};
   }
@@ -77,6 +77,13 @@ void draw_axes(cv::Mat& image, const Slanted& slanted, const GroundGrid& grid) {
   for (const double y : drawing::multiples(low.y(), high.y(), step_m)) {
     path({low.x(), y}, {high.x(), y});
     drawing::draw_text(image, number(y), slanted.pixel({low.x(), y}, 0) + Point(-10, 6),
+                       {11, theme.quiet_text, drawing::Anchor::kTopRight});
+  }
+  const Eigen::Vector2d left(low.x(), high.y());
+  const drawing::Path upright{slanted.pixel(left, 0), slanted.pixel(left, 1)};
+  drawing::draw_path(image, upright, false, line);
+  for (const double share : {0.0, 0.5, 1.0}) {
+    drawing::draw_text(image, number(share), slanted.pixel(left, share) + Point(-10, -5),
                        {11, theme.quiet_text, drawing::Anchor::kTopRight});
   }
   const Eigen::Vector2d middle = 0.5 * (low + high);
@@ -164,16 +171,16 @@ cv::Mat likelihood_surface(const GroundGrid& grid, std::span<const double> share
          ++row) {
       const int column = depth - row;
       drawing::Path patch;
-      double sum = 0;
+      double most = 0;
       for (const auto& [c, r] :
            {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
         const double s = share(column + c, row + r);
-        sum += s;
         if (std::isnan(s)) break;
+        most = std::max(most, s);
         patch.push_back(slanted.pixel(corner_of(grid, column + c, row + r), s));
       }
-      if (std::isnan(sum)) continue;
-      const drawing::Color color = likelihood_color(0.25 * sum);
+      if (patch.size() < 4) continue;
+      const drawing::Color color = likelihood_color(most);
       drawing::fill_convex(image, patch, color);
       drawing::draw_path(image, patch, true, {drawing::mix(color, {0, 0, 0}, 0.8), 1});
     }
