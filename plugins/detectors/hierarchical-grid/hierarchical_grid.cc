@@ -120,8 +120,14 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .unit("m")
       .at_least(0)
       .at_most(10)
-      .meaning("standard deviation of the Gaussian on the ground; maxima are local within 3 of it")
+      .meaning("standard deviation of the Gaussian on the ground")
       .source("thesis (4.4), (4.5)");
+  p.value("separation_m", &Options::separation_m)
+      .unit("m")
+      .at_least(0)
+      .at_most(30)
+      .meaning("a maximum exceeds all cells so near to it; unset: the smoothing's gate, 3 sigma")
+      .source("thesis 4.3.6: within the same neighbourhood");
   p.choice("maxima", &Options::maxima, {"local", "all"})
       .meaning(
           "local: an observation at each local maximum; all: at each evaluated cell, for "
@@ -154,6 +160,8 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
       curve_(options.probability),
       grid_(make_grid(options, *context.scene)),
       neighbours_(gaussian_neighbours(grid_.finest(), options.smoothing_m)),
+      rivals_(gaussian_neighbours(grid_.finest(),
+                                  options.separation_m.value_or(3 * options.smoothing_m) / 3)),
       hierarchy_(grid_, *scene_) {
   for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
 }
@@ -215,7 +223,7 @@ Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
 
   std::vector<CellIndex> found;
   if (options_.maxima == Maxima::kLocal) {
-    found = local_maxima(grid, surface, finest.evaluated, neighbours_);
+    found = local_maxima(grid, surface, finest.evaluated, rivals_);
   } else {
     for (std::size_t cell = 0; cell < surface.size(); ++cell) {
       if (finest.evaluated[cell] != 0) found.push_back(static_cast<CellIndex>(cell));

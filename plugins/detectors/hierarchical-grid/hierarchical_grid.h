@@ -31,6 +31,7 @@ class HierarchicalGrid final : public Detector, private Learner {
     double refine_above = 1;
     int spread = 1;
     double smoothing_m = 0.22;
+    std::optional<double> separation_m;
     Maxima maxima = Maxima::kLocal;
     double min_score = 1.5;
     int most = 100;
@@ -70,7 +71,8 @@ class HierarchicalGrid final : public Detector, private Learner {
   std::vector<std::size_t> slots_;  ///< of the witnesses' evidence
   ProbabilityCurve curve_;
   StateGrid grid_;
-  std::vector<Neighbour> neighbours_;
+  std::vector<Neighbour> neighbours_;  ///< that the likelihood is smoothed over
+  std::vector<Neighbour> rivals_;      ///< that a maximum must exceed
   TemplateHierarchy hierarchy_;
   std::unique_ptr<const GridSearch> search_;  ///< null until the templates are there
 };
