@@ -29,7 +29,8 @@ namespace plaza {
 /// tell: background never learned or no longer valid, too small a part of the silhouette in the
 /// image, unhidden by static occluders and unexplained.
 ///
-/// *explain* takes the foreground inside a silhouette away and makes its pixels count nowhere.
+/// *explain* takes the foreground inside a silhouette and its gap away and makes those pixels count
+/// nowhere: arms left behind would fill the slim rest of a silhouette beside the person.
 class ColorModality final : public Modality, private Learner {
  public:
   enum class Learning { kPeopleFree, kMedian };

@@ -83,7 +83,7 @@ std::shared_ptr<const ColorEvidence> ColorEvidence::without(const SpanTemplates&
   rest_blind->mask =
       blind_->mask.empty() ? cv::Mat(image_.size(), CV_8UC1, cv::Scalar(0)) : blind_->mask.clone();
   const SpanTemplate& t = templates.at(index);
-  for (std::uint32_t i = t.inner; i < t.near; ++i) {
+  for (std::uint32_t i = t.near; i < t.outer; ++i) {  // with the gap: arms are the person's too
     const int stride = image_.cols + 1;
     const CountSpan& s = templates.span(i);
     const int row = static_cast<int>(s.begin) / stride;

@@ -43,8 +43,8 @@ class ColorEvidence final : public Evidence {
   /// See plaza::color::occupancy(); nothing when the evidence isn't usable either.
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                   double least_visible) const;
-  /// The evidence without the foreground inside a template, whose pixels count nowhere from then
-  /// on.
+  /// The evidence without the foreground inside a template and its gap, whose pixels count
+  /// nowhere from then on.
   std::shared_ptr<const ColorEvidence> without(const SpanTemplates& templates,
                                                std::size_t index) const;
 

@@ -171,6 +171,19 @@ TEST_F(ColorTest, ExplainedPeopleFeedNobodyElse) {
   EXPECT_EQ(matched(*modality, evidence, poses), before);
 }
 
+TEST_F(ColorTest, ArmsAreExplainedWithTheirPerson) {
+  cv::Mat image = with_people({{20, 15}});
+  image(cv::Rect(17, 16, 16, 28)).setTo(cv::Scalar(20, 22, 25));
+  options_.gap = 0.15;
+  const auto modality = taught();
+  const std::vector<Pose> poses = {at(20, 15), at(27, 15)};
+  const auto evidence = modality->prepare(image, 0).evidence;
+  const auto batch = modality->sample(Rectangle(), poses, 0);
+  const double nobody = -0.5 / (options_.occupancy_sigma * options_.occupancy_sigma);
+  const double beside = matched(*modality, modality->explain(evidence, *batch, 0), poses)[1];
+  EXPECT_TRUE(std::isnan(beside) || beside < nobody + 0.1) << beside;
+}
+
 TEST_F(ColorTest, PixelsBehindOccludersDontCount) {
   const cv::Mat image = with_people({{20, 15}});
   cv::Mat hidden = image.clone();
