@@ -9,8 +9,8 @@
 
 #include "framework/config/pipeline.h"
 #include "framework/execution/run.h"
-#include "framework/plugin/registry.h"
 #include "plaza/component/declaration.h"
+#include "tests/support/into_registry.h"
 
 namespace plaza {
 namespace {
@@ -57,19 +57,6 @@ class NoOperation : public Describer {
   void do_describe(const NodeIo&, Observations&) override {}
 };
 
-class Collector final : public ComponentRegistrar {
- public:
-  Registry registry;
-
- private:
-  void do_add(ComponentDeclaration declaration, ComponentFactory factory) override {
-    registry.add({.declaration = std::move(declaration),
-                  .factory = std::move(factory),
-                  .library = {},
-                  .library_handle = nullptr});
-  }
-};
-
 struct Folder {
   Folder()
       : path(std::filesystem::temp_directory_path() /
@@ -90,10 +77,11 @@ struct Folder {
 /// Seconds that a run of `nodes` no-ops takes; with memory every second one has some.
 double seconds_of(int nodes, bool memory, int threads) {
   static const Folder folder;
-  Collector collector;
-  collector.add<NoImages>();
-  collector.add<NoOperation<false>>();
-  collector.add<NoOperation<true>>();
+  Registry registry;
+  test::IntoRegistry registrar(registry);
+  registrar.add<NoImages>();
+  registrar.add<NoOperation<false>>();
+  registrar.add<NoOperation<true>>();
   nlohmann::json pipeline = {{"plaza", 1}, {"name", "bench"}, {"scene", "scene.json"}};
   pipeline["nodes"].push_back({{"use", "bench-source"}, {"name", "cameras"}});
   for (int i = 0; i < nodes; ++i) {
@@ -101,7 +89,7 @@ double seconds_of(int nodes, bool memory, int threads) {
                                  {"name", "node" + std::to_string(i)}});
   }
   const ResolvedPipeline resolved = read_pipeline_text(
-      pipeline.dump(), {.file = folder.path / "pipeline.json", .sets = {}}, collector.registry);
+      pipeline.dump(), {.file = folder.path / "pipeline.json", .sets = {}}, registry);
   auto scene = std::make_shared<Scene>();
   scene->frame_rate_hz = 25;
   RunOptions options;

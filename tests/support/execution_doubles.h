@@ -11,6 +11,7 @@
 #include "framework/plugin/registry.h"
 #include "plaza/component/declaration.h"
 #include "plaza/geometry/scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plaza::test {
 
@@ -34,20 +35,6 @@ Counters& counters();
 
 /// Two small views of one place, 25 frames per second.
 std::shared_ptr<const Scene> double_scene();
-
-/// A folder that goes with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);

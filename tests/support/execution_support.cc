@@ -1,29 +1,13 @@
-#include <unistd.h>
-
-#include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "tests/support/execution_doubles.h"
+#include "tests/support/into_registry.h"
 
 namespace plaza::test {
 namespace {
-
-class Collector final : public ComponentRegistrar {
- public:
-  explicit Collector(Registry& registry) : registry_(registry) {}
-
- private:
-  void do_add(ComponentDeclaration declaration, ComponentFactory factory) override {
-    registry_.add({.declaration = std::move(declaration),
-                   .factory = std::move(factory),
-                   .library = {},
-                   .library_handle = nullptr});
-  }
-  Registry& registry_;
-};
 
 Camera camera(const std::string& name, double x_m) {
   CameraFromWorld pose;  // 3 m above the ground, looking along +y and down a little
@@ -40,8 +24,8 @@ Camera camera(const std::string& name, double x_m) {
 
 Registry double_registry() {
   Registry registry;
-  Collector collector(registry);
-  register_doubles(collector);
+  IntoRegistry registrar(registry);
+  register_doubles(registrar);
   return registry;
 }
 
@@ -52,17 +36,6 @@ std::shared_ptr<const Scene> double_scene() {
   scene->area = {.min_m = {-5, -2}, .max_m = {5, 8}};
   scene->frame_rate_hz = 25;
   return scene;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "plaza-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 std::string read_text(const std::filesystem::path& file) {

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <system_error>
 
 #include "framework/plugin/loader.h"
 #include "plaza/contract/gtest.h"
 #include "tests/contract/plugins/trials.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plaza::contract {
 namespace {
@@ -40,24 +40,6 @@ std::vector<std::string> all_names() {
   return names;
 }
 
-class Files {
- public:
-  Files() {
-    std::string pattern = (fs::temp_directory_path() / "plaza-trial-XXXXXX").string();
-    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~Files() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Files(const Files&) = delete;
-  Files& operator=(const Files&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 TEST(PluginContractTest, NoPluginOfThisTreeIsRefused) {
   for (const RefusedPlugin& r : registry().refused())
     ADD_FAILURE() << r.library << ": " << r.reason;
@@ -67,7 +49,7 @@ TEST(PluginContractTest, NoPluginOfThisTreeIsRefused) {
 class ComponentContractTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(ComponentContractTest, IsKept) {
-  const Files files;
+  const test::TemporaryFolder files;
   const std::vector<Trial> trials = trials_of(GetParam(), files.path());
   ASSERT_FALSE(trials.empty()) << "no trial for component \"" << GetParam()
                                << "\": add one to the table in tests/contract/plugins/trials.cc";

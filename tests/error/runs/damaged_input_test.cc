@@ -3,10 +3,10 @@
 
 #include "framework/config/pipeline.h"
 #include "framework/execution/run.h"
-#include "framework/plugin/registry.h"
 #include "plugins/sources/images/images_source.h"
 #include "plugins/sources/video/video_source.h"
 #include "tests/plugins/sources/avi.h"
+#include "tests/support/into_registry.h"
 
 namespace plaza::sources {
 namespace {
@@ -16,26 +16,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class Registrar final : public ComponentRegistrar {
- public:
-  explicit Registrar(Registry& registry) : registry_(registry) {}
-
- protected:
-  void do_add(ComponentDeclaration declaration, ComponentFactory factory) override {
-    ComponentEntry entry;
-    entry.declaration = std::move(declaration);
-    entry.factory = std::move(factory);
-    registry_.add(std::move(entry));
-  }
-
- private:
-  Registry& registry_;
-};
-
 class DamagedInput : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override {
-    Registrar registrar(registry_);
+    test::IntoRegistry registrar(registry_);
     registrar.add<VideoSource>();
     registrar.add<ImagesSource>();
     write_bytes(folder_ / "scene.json", "{}");  // not read: the scene is made here

@@ -1,8 +1,6 @@
 // The commands that tell about pipelines and components, run as the program runs them.
-#include <sstream>
-
-#include "framework/cli/program.h"
 #include "tests/framework/config/pipeline_fixture.h"
+#include "tests/support/program_in_process.h"
 
 namespace plaza::test {
 namespace {
@@ -11,17 +9,9 @@ using testing::HasSubstr;
 
 class CommandsTest : public PipelineFixture {
  protected:
-  struct Outcome {
-    int status = 0;
-    std::string out;
-    std::string errors;
-  };
   static Outcome plaza(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--plugin-path", PLAZA_TEST_PLUGINS});
-    std::ostringstream errors;
-    testing::internal::CaptureStdout();
-    const int status = run_program(arguments, errors);
-    return {status, testing::internal::GetCapturedStdout(), errors.str()};
+    return run_in_process(arguments);
   }
 };
 

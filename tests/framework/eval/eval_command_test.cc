@@ -3,31 +3,17 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "framework/cli/program.h"
+#include "tests/support/program_in_process.h"
 
 namespace plaza {
 namespace {
 
 using nlohmann::json;
+using test::Outcome;
+using test::run_in_process;
 using testing::AllOf;
 using testing::HasSubstr;
-
-struct Outcome {
-  int status = -1;
-  std::string out, errors;
-};
-
-Outcome plaza(const std::vector<std::string>& arguments) {
-  std::ostringstream errors;
-  testing::internal::CaptureStdout();
-  Outcome outcome;
-  outcome.status = run_program(arguments, errors);
-  outcome.out = testing::internal::GetCapturedStdout();
-  outcome.errors = errors.str();
-  return outcome;
-}
 
 class EvalCommand : public testing::Test {
  protected:
@@ -47,7 +33,7 @@ class EvalCommand : public testing::Test {
     std::vector<std::string> arguments{"eval", "--gt", (folder_ / "gt.txt").string(), "--result",
                                        (folder_ / "result.txt").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return plaza(arguments);
+    return run_in_process(arguments);
   }
   json evaluation(std::vector<std::string> more) const {
     more.push_back("--json");
@@ -191,7 +177,7 @@ TEST_F(EvalCommand, OptionsMustFitTheRules) {
   EXPECT_EQ(eval({"--rules", "ground", "--unit-m", "-1"}).status, 2);
   EXPECT_EQ(eval({"--rules", "MOT14"}).status, 2);
   EXPECT_EQ(eval({"--last-frame", "0"}).status, 2);
-  EXPECT_EQ(plaza({"eval"}).status, 2);
+  EXPECT_EQ(run_in_process({"eval"}).status, 2);
 }
 
 }  // namespace

@@ -1,35 +1,21 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "framework/cli/program.h"
 #include "tests/framework/plugin/fixture_paths.h"
+#include "tests/support/program_in_process.h"
 
 namespace plaza {
 namespace {
 
+using test::Outcome;
+using test::run_in_process;
 using testing::AllOf;
 using testing::HasSubstr;
 
-struct Outcome {
-  int status = -1;
-  std::string out, errors;
-};
-
-Outcome plaza(const std::vector<std::string>& arguments) {
-  std::ostringstream errors;
-  testing::internal::CaptureStdout();
-  Outcome outcome;
-  outcome.status = run_program(arguments, errors);
-  outcome.out = testing::internal::GetCapturedStdout();
-  outcome.errors = errors.str();
-  return outcome;
-}
-
 TEST(PluginsCommandTest, TableOfLibrariesComponentsAndRefusals) {
-  const Outcome o = plaza({"plugins", "--plugin-path", fixture_folder("valid").string(),
-                           "--plugin-path", fixture_folder("throwing").string()});
+  const Outcome o = run_in_process({"plugins", "--plugin-path", fixture_folder("valid").string(),
+                                    "--plugin-path", fixture_folder("throwing").string()});
   EXPECT_EQ(o.status, 0);
   EXPECT_THAT(o.out,
               AllOf(HasSubstr(fixture_library("valid").string() + "\n"), HasSubstr("fixture-first"),
@@ -40,15 +26,17 @@ TEST(PluginsCommandTest, TableOfLibrariesComponentsAndRefusals) {
 }
 
 TEST(PluginsCommandTest, ACrashingPluginIsALineInTheTable) {
-  const Outcome o = plaza({"plugins", "--plugin-path", fixture_folder("crashing").string()});
+  const Outcome o =
+      run_in_process({"plugins", "--plugin-path", fixture_folder("crashing").string()});
   EXPECT_EQ(o.status, 0);
   EXPECT_THAT(o.out,
               AllOf(HasSubstr(fixture_library("crashing").string()), HasSubstr("while loading")));
 }
 
 TEST(PluginsCommandTest, Json) {
-  const Outcome o = plaza({"plugins", "--json", "--plugin-path", fixture_folder("valid").string(),
-                           "--plugin-path", fixture_folder("old-version").string()});
+  const Outcome o =
+      run_in_process({"plugins", "--json", "--plugin-path", fixture_folder("valid").string(),
+                      "--plugin-path", fixture_folder("old-version").string()});
   const nlohmann::json j = nlohmann::json::parse(o.out);
   bool found = false;
   for (const auto& library : j["libraries"]) {
@@ -64,14 +52,14 @@ TEST(PluginsCommandTest, Json) {
 }
 
 TEST(PluginsCommandTest, ProbeSaysByItsStatusWhetherALibraryCanBeUsed) {
-  Outcome o = plaza({"plugins", "--probe", fixture_library("valid").string()});
+  Outcome o = run_in_process({"plugins", "--probe", fixture_library("valid").string()});
   EXPECT_EQ(o.status, 0);
   EXPECT_EQ(o.out, fixture_library("valid").string() +
                        ": usable: describer fixture-first, describer fixture-other\n");
-  o = plaza({"plugins", "--probe", fixture_library("crashing").string()});
+  o = run_in_process({"plugins", "--probe", fixture_library("crashing").string()});
   EXPECT_EQ(o.status, 2);
   EXPECT_THAT(o.out, HasSubstr("while loading"));
-  o = plaza({"plugins", "--json", "--probe", fixture_library("no-entry").string()});
+  o = run_in_process({"plugins", "--json", "--probe", fixture_library("no-entry").string()});
   EXPECT_EQ(o.status, 2);
   const nlohmann::json j = nlohmann::json::parse(o.out);
   EXPECT_EQ(j["usable"], false);
@@ -79,13 +67,14 @@ TEST(PluginsCommandTest, ProbeSaysByItsStatusWhetherALibraryCanBeUsed) {
 }
 
 TEST(PluginsCommandTest, PrintsOfAProbedLibraryDoNotSpoilTheAnswer) {
-  const Outcome o = plaza({"plugins", "--json", "--probe", fixture_library("exiting").string()});
+  const Outcome o =
+      run_in_process({"plugins", "--json", "--probe", fixture_library("exiting").string()});
   EXPECT_EQ(nlohmann::json::parse(o.out)["report"],
             "ended the process with status 7 while loading");
 }
 
 TEST(PluginsCommandTest, AMissingFolderIsTheUsersError) {
-  const Outcome o = plaza({"plugins", "--plugin-path", "/nowhere"});
+  const Outcome o = run_in_process({"plugins", "--plugin-path", "/nowhere"});
   EXPECT_EQ(o.status, 2);
   EXPECT_THAT(o.errors, HasSubstr("/nowhere does not exist"));
 }

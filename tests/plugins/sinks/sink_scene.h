@@ -7,6 +7,7 @@
 #include "plaza/component/build_context.h"
 #include "plaza/data/track.h"
 #include "tests/sdk/geometry/test_cameras.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plaza::test {
 
@@ -25,22 +26,6 @@ inline std::shared_ptr<Scene> ring_scene(int cameras) {
   }
   return scene;
 }
-
-/// A folder of its own that is gone after the test.
-class TestFolder {
- public:
-  TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "plaza-sinks-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TestFolder() { std::filesystem::remove_all(path_); }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline BuildContext context_of(std::shared_ptr<const Scene> scene,
                                const std::filesystem::path& folder) {

@@ -19,32 +19,14 @@
 #include "plaza/component/source.h"
 #include "plaza/data/frames.h"
 #include "plaza/geometry/scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plaza::sources {
 
 inline constexpr int kWidth = 64;
 inline constexpr int kHeight = 48;
 
-/// A folder that is gone after the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "plaza-sources-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 inline Camera test_camera(const std::string& name, int width = kWidth, int height = kHeight) {
   PinholeIntrinsics intrinsics;

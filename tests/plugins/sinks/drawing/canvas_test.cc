@@ -121,7 +121,7 @@ TEST(Canvas, AnchorsPutTheTextAroundThePoint) {
 }
 
 TEST(PictureFile, WritesWhatCanBeReadBack) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   cv::Mat image = black();
   image.at<cv::Vec3b>(3, 4) = {1, 2, 3};
   write_png(folder.path() / "a.png", image);

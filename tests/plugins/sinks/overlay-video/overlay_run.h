@@ -27,7 +27,7 @@ struct OverlayRun {
   };
   std::function<GroundTruth(std::int64_t frame)> truth;
 
-  test::TestFolder folder;
+  test::TemporaryFolder folder;
   std::vector<Artifact> artifacts;
 
   void run() {

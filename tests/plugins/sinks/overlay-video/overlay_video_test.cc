@@ -83,7 +83,7 @@ TEST(OverlayVideo, EndedBeforeTheFirstFrameItLeavesNothing) {
 }
 
 TEST(OverlayVideo, EndWithoutBeginIsHarmless) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   OverlayVideo overlay({}, test::context_of(test::ring_scene(1), folder.path()));
   Renderer& renderer = overlay;
   EXPECT_TRUE(renderer.end(false).empty());

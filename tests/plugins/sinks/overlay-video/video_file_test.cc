@@ -50,7 +50,7 @@ TEST(VideoFile, EveryCodecAndContainerThatIsOfferedCanBeReadBack) {
     for (const Codec codec : {Codec::kAuto, Codec::kH264, Codec::kMpeg4, Codec::kMjpeg}) {
       if (!can_write(extension, codec)) continue;
       ++offered;
-      const test::TestFolder folder;
+      const test::TemporaryFolder folder;
       VideoFile video(folder.path() / ("a" + extension), codec, 7, kSize);
       for (int i = 0; i < 9; ++i) video.write(picture(i));
       video.close();
@@ -71,7 +71,7 @@ TEST(VideoFile, EveryCodecAndContainerThatIsOfferedCanBeReadBack) {
 }
 
 TEST(VideoFile, HasNoNameBeforeItIsComplete) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   {
     VideoFile video(folder.path() / "a.mp4", Codec::kAuto, 10, kSize);
     video.write(picture(1));
@@ -81,7 +81,7 @@ TEST(VideoFile, HasNoNameBeforeItIsComplete) {
 }
 
 TEST(VideoFile, WithoutFramesThereIsNoFile) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   VideoFile video(folder.path() / "a.mp4", Codec::kAuto, 10, kSize);
   video.close();
   EXPECT_THAT(names_in(folder.path()), testing::IsEmpty());
@@ -93,7 +93,7 @@ TEST(VideoFile, FolderThatCannotBeWrittenToIsNamed) {
   EXPECT_THAT(missing, HasSubstr("/nowhere/at/all/a.mp4"));
   EXPECT_THAT(missing, HasSubstr("--out"));
 
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "file") << "no folder";
   EXPECT_THAT(
       user_error([&] { VideoFile(folder.path() / "file" / "a.mp4", Codec::kAuto, 10, kSize); }),
@@ -101,7 +101,7 @@ TEST(VideoFile, FolderThatCannotBeWrittenToIsNamed) {
 }
 
 TEST(VideoFile, ContainerThatCannotHoldTheCodecIsNamed) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_FALSE(can_write(".txt", Codec::kH264));
   const std::string error =
       user_error([&] { VideoFile(folder.path() / "a.txt", Codec::kH264, 10, kSize); });
@@ -111,7 +111,7 @@ TEST(VideoFile, ContainerThatCannotHoldTheCodecIsNamed) {
 }
 
 TEST(VideoFile, FullDiskIsAnErrorAndLeavesNoBrokenFile) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   // a limit on the size of files does to the writer what a full disk does: write() fails
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -133,7 +133,7 @@ TEST(VideoFile, FullDiskIsAnErrorAndLeavesNoBrokenFile) {
 }
 
 TEST(VideoFile, FramesOfAnotherSizeAreRefused) {
-  const test::TestFolder folder;
+  const test::TemporaryFolder folder;
   VideoFile video(folder.path() / "a.mp4", Codec::kAuto, 10, kSize);
   EXPECT_THROW(video.write(cv::Mat(10, 10, CV_8UC3)), std::invalid_argument);
   EXPECT_THROW(video.write(cv::Mat(kSize, CV_8UC1)), std::invalid_argument);

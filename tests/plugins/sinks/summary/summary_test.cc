@@ -60,7 +60,7 @@ class SummaryRun {
     static constexpr int kInputs[] = {0, 1};
     return NodeIo(f, f * 100'000'000, slots, kInputs, {});
   }
-  test::TestFolder folder_;
+  test::TemporaryFolder folder_;
   Summary sink_;
 };
 
