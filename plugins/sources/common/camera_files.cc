@@ -106,6 +106,35 @@ Diagnostics check_cameras(const Scene& scene, const std::string& parameter,
   return faults;
 }
 
+Diagnostics check_entries(
+    const Scene& scene, const std::string& parameter, const CameraPaths& paths,
+    const std::function<std::string(std::size_t, const std::filesystem::path&)>& fault_of) {
+  std::vector<std::string> found(scene.cameras.size());
+  parallel_for(found.size(), [&](std::size_t c) {
+    const auto entry = paths.find(scene.cameras[c].name());
+    if (entry == paths.end()) return;
+    try {
+      found[c] = fault_of(c, entry->second);
+    } catch (const UserError& error) {
+      found[c] = error.what();
+    }
+  });
+  Diagnostics faults;
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    if (found[c].empty()) continue;
+    const std::string& name = scene.cameras[c].name();
+    faults.push_back(
+        fault_at(entry_pointer(parameter, name), "camera '" + name + "': " + found[c]));
+  }
+  return faults;
+}
+
+std::string size_fault(const Camera& camera, int width, int height) {
+  if (width == camera.width() && height == camera.height()) return {};
+  return " is " + size_text(width, height) + ", the calibration of camera '" + camera.name() +
+         "' is for " + size_text(camera.width(), camera.height());
+}
+
 std::string file_fault(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);

@@ -2,13 +2,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "plaza/component/node.h"
 #include "plaza/core/diagnostic.h"
 #include "plaza/core/error.h"
+#include "plaza/core/parallel.h"
+#include "plaza/data/frames.h"
 #include "plaza/geometry/scene.h"
 
 namespace plaza::sources {
@@ -48,6 +53,31 @@ Diagnostics check_cameras(const Scene& scene, const std::string& parameter,
 /// Cameras of `paths` that the scene lacks, for sources where not every camera needs an entry.
 Diagnostics check_known_cameras(const Scene& scene, const std::string& parameter,
                                 const CameraPaths& paths);
+
+/// Faults of the cameras' entries, in the scene's order: `fault_of`, called for several at once,
+/// says what is wrong with the entry of a camera (its index in the scene), or throws UserError;
+/// empty: nothing. Entries that the scene lacks are check_known_cameras()'s.
+Diagnostics check_entries(
+    const Scene& scene, const std::string& parameter, const CameraPaths& paths,
+    const std::function<std::string(std::size_t, const std::filesystem::path&)>& fault_of);
+
+/// " is 32x32, the calibration of camera 'view1' is for 64x48", to stand after a file's name; empty
+/// where an image of that size fits its camera.
+std::string size_fault(const Camera& camera, int width, int height);
+
+/// The images of a frame, read concurrently: `read(c)` gives that of camera c of the scene, empty
+/// where there is none; its errors are said to be of the camera and frame.
+template <class Read>
+std::shared_ptr<FrameSet> read_views(const Scene& scene, const NodeIo& io, const Read& read) {
+  auto frames = std::make_shared<FrameSet>();
+  frames->frame = io.frame();
+  frames->time_ns = io.time_ns();
+  frames->views.resize(scene.cameras.size());
+  parallel_for(scene.cameras.size(), [&](std::size_t c) {
+    frames->views[c] = with_camera(scene.cameras[c], io.frame(), [&] { return read(c); });
+  });
+  return frames;
+}
 
 /// What is wrong with an input file before its content is looked at, with the remedy; empty: it is
 /// a regular file that can be read.

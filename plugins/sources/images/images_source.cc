@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "plaza/core/parallel.h"
-#include "plaza/data/frames.h"
 #include "plugins/sources/common/camera_files.h"
 #include "plugins/sources/images/image_file.h"
 
@@ -14,12 +12,6 @@ namespace {
 
 // Numbers that are mostly gaps (time stamps, every tenth frame) would make a run of empty frames.
 constexpr std::int64_t kMostFramesPerImage = 100;
-
-std::string size_fault(const cv::Mat& image, const Camera& camera) {
-  if (image.cols == camera.width() && image.rows == camera.height()) return {};
-  return " is " + size_text(image.cols, image.rows) + ", the calibration of camera '" +
-         camera.name() + "' is for " + size_text(camera.width(), camera.height());
-}
 
 }  // namespace
 
@@ -91,7 +83,7 @@ std::string ImagesSource::first_image_fault(const Camera& camera, const ImageSer
     const bool accepted = decoded.damaged && options_.damaged == Damaged::kMissing;
     return accepted ? std::string() : decoded.fault;
   }
-  const std::string fault = size_fault(decoded.image, camera);
+  const std::string fault = size_fault(camera, decoded.image.cols, decoded.image.rows);
   if (fault.empty()) return {};
   return first->second.string() + fault +
          "; give the images that were calibrated, convert them, or correct the image size in the "
@@ -102,23 +94,13 @@ Diagnostics ImagesSource::do_check() const {
   Diagnostics faults =
       check_cameras(*scene_, "pattern", options_.pattern, options_.missing_cameras);
   std::vector<ImageSeries> series(scene_->cameras.size());
-  std::vector<std::string> found(scene_->cameras.size());
-  parallel_for(scene_->cameras.size(), [&](std::size_t c) {
-    const auto pattern = options_.pattern.find(scene_->cameras[c].name());
-    if (pattern == options_.pattern.end()) return;
-    try {
-      series[c] = list_images(pattern->second);
-      found[c] = first_image_fault(scene_->cameras[c], series[c]);
-    } catch (const UserError& error) {
-      found[c] = error.what();
-    }
-  });
-  for (std::size_t c = 0; c < found.size(); ++c) {
-    if (found[c].empty()) continue;
-    const std::string& name = scene_->cameras[c].name();
-    faults.push_back(
-        fault_at(entry_pointer("pattern", name), "camera '" + name + "': " + found[c]));
-  }
+  const Diagnostics of_entries =
+      check_entries(*scene_, "pattern", options_.pattern,
+                    [&](std::size_t c, const std::filesystem::path& pattern) {
+                      series[c] = list_images(pattern);
+                      return first_image_fault(scene_->cameras[c], series[c]);
+                    });
+  faults.insert(faults.end(), of_entries.begin(), of_entries.end());
   if (!faults.empty()) return faults;
   try {
     number_frames(series);
@@ -158,7 +140,8 @@ cv::Mat ImagesSource::read_view(std::size_t camera, std::int64_t frame) const {
                     "; copy it again, delete it to run without this view in this frame, or set "
                     "\"damaged\": \"missing\" to do so with all damaged files");
   }
-  if (const std::string fault = size_fault(decoded.image, scene_->cameras[camera]);
+  if (const std::string fault =
+          size_fault(scene_->cameras[camera], decoded.image.cols, decoded.image.rows);
       !fault.empty()) {
     throw UserError(in_frame + file->second.string() + fault +
                     "; replace it, or delete it to run without this view in this frame");
@@ -168,15 +151,7 @@ cv::Mat ImagesSource::read_view(std::size_t camera, std::int64_t frame) const {
 
 bool ImagesSource::do_read(NodeIo& io) {
   if (io.frame() >= numbering_.frames) return false;
-  auto frames = std::make_shared<FrameSet>();
-  frames->frame = io.frame();
-  frames->time_ns = io.time_ns();
-  frames->views.resize(scene_->cameras.size());
-  parallel_for(scene_->cameras.size(), [&](std::size_t c) {
-    frames->views[c] =
-        with_camera(scene_->cameras[c], io.frame(), [&] { return read_view(c, io.frame()); });
-  });
-  io.out(0, std::move(frames));
+  io.out(0, read_views(*scene_, io, [&](std::size_t c) { return read_view(c, io.frame()); }));
   return true;
 }
 

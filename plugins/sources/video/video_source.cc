@@ -5,8 +5,6 @@
 #include <sstream>
 #include <utility>
 
-#include "plaza/core/parallel.h"
-#include "plaza/data/frames.h"
 #include "plugins/sources/common/camera_files.h"
 
 namespace plaza::sources {
@@ -26,24 +24,15 @@ std::string number_text(double value) {
 // What is wrong with a camera's file, as far as its header and first frame tell; empty: nothing.
 std::string video_fault(const Camera& camera, const std::filesystem::path& file) {
   if (std::string fault = file_fault(file); !fault.empty()) return fault;
-  try {
-    VideoFile video(file);
-    if (!video.reach(0)) {
-      return file.string() +
-             " has no frame that can be decoded; it is damaged or its recording failed";
-    }
-    const VideoHeader& header = video.header();
-    if (header.width != camera.width() || header.height != camera.height()) {
-      return file.string() + " is " + size_text(header.width, header.height) +
-             ", the calibration of camera '" + camera.name() + "' is for " +
-             size_text(camera.width(), camera.height()) +
-             "; give the video that was calibrated, convert it, or correct the image size in the "
-             "scene";
-    }
-  } catch (const UserError& error) {
-    return error.what();
+  VideoFile video(file);
+  if (!video.reach(0)) {
+    return file.string() +
+           " has no frame that can be decoded; it is damaged or its recording failed";
   }
-  return {};
+  const std::string fault = size_fault(camera, video.header().width, video.header().height);
+  if (fault.empty()) return {};
+  return file.string() + fault +
+         "; give the video that was calibrated, convert it, or correct the image size in the scene";
 }
 
 }  // namespace
@@ -91,36 +80,30 @@ Diagnostics VideoSource::do_check() const {
                      " Hz, so there are no images for some frames; give the scene the rate of "
                      "its videos"));
   }
-  std::vector<std::pair<const Camera*, std::filesystem::path>> files;
-  for (const auto& [name, file] : options_.files) {
-    if (const auto camera = scene_->camera_index(name)) {
-      files.emplace_back(&scene_->cameras[*camera], file);
-    }
-  }
-  std::vector<std::string> found(files.size());
-  parallel_for(files.size(),
-               [&](std::size_t i) { found[i] = video_fault(*files[i].first, files[i].second); });
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (found[i].empty()) continue;
-    faults.push_back(fault_at(entry_pointer("files", files[i].first->name()),
-                              "camera '" + files[i].first->name() + "': " + found[i]));
-  }
+  const Diagnostics of_entries = check_entries(
+      *scene_, "files", options_.files, [&](std::size_t c, const std::filesystem::path& file) {
+        return video_fault(scene_->cameras[c], file);
+      });
+  faults.insert(faults.end(), of_entries.begin(), of_entries.end());
   return faults;
 }
 
 SourceInfo VideoSource::do_open() {
-  views_.clear();
-  for (std::size_t camera = 0; camera < scene_->cameras.size(); ++camera) {
-    const auto file = options_.files.find(scene_->cameras[camera].name());
+  videos_.clear();
+  videos_.resize(scene_->cameras.size());
+  for (std::size_t c = 0; c < videos_.size(); ++c) {
+    const auto file = options_.files.find(scene_->cameras[c].name());
     if (file == options_.files.end()) continue;
-    with_camera(scene_->cameras[camera], std::nullopt, [&] {
-      views_.push_back({camera, std::make_unique<VideoFile>(file->second)});
-    });
+    with_camera(scene_->cameras[c], std::nullopt,
+                [&] { videos_[c] = std::make_unique<VideoFile>(file->second); });
   }
-  if (views_.empty()) throw UserError("no camera of the scene has a video in \"files\"");
+  if (std::ranges::all_of(videos_, [](const auto& video) { return video == nullptr; })) {
+    throw UserError("no camera of the scene has a video in \"files\"");
+  }
   SourceInfo info;
-  for (const View& view : views_) {
-    const std::int64_t count = view.video->header().frame_count;
+  for (const std::unique_ptr<VideoFile>& video : videos_) {
+    if (!video) continue;
+    const std::int64_t count = video->header().frame_count;
     if (count <= 0) return {};  // one that does not say makes the whole unknown
     const std::int64_t frames = run_frames(count);
     if (!info.frame_count) {
@@ -165,55 +148,51 @@ void VideoSource::check_end(const VideoFile& video) const {
 }
 
 void VideoSource::do_seek(std::int64_t frame) {
-  std::vector<char> reached(views_.size());
-  parallel_for(views_.size(), [&](std::size_t i) {
-    with_camera(scene_->cameras[views_[i].camera], frame,
-                [&] { reached[i] = views_[i].video->reach(file_frame(frame)) ? 1 : 0; });
+  std::vector<char> ended(videos_.size());
+  parallel_for(videos_.size(), [&](std::size_t c) {
+    if (!videos_[c]) return;
+    with_camera(scene_->cameras[c], frame,
+                [&] { ended[c] = videos_[c]->reach(file_frame(frame)) ? 0 : 1; });
   });
-  const auto over = static_cast<std::size_t>(std::ranges::count(reached, 0));
-  if (!at_end(over)) return;
-  const auto ended = std::ranges::find(reached, 0) - reached.begin();
-  const View& view = views_[static_cast<std::size_t>(ended)];
-  with_camera(scene_->cameras[view.camera], frame, [&] {
+  if (!at_end(ended)) return;
+  const auto first = static_cast<std::size_t>(std::ranges::find(ended, 1) - ended.begin());
+  with_camera(scene_->cameras[first], frame, [&] {
+    const VideoFile& video = *videos_[first];
     throw UserError("frame " + std::to_string(frame + 1) +
-                    " is beyond the end: " + view.video->path().string() + " gives " +
-                    std::to_string(run_frames(view.video->end().value_or(0))) + " frames");
+                    " is beyond the end: " + video.path().string() + " gives " +
+                    std::to_string(run_frames(video.end().value_or(0))) + " frames");
   });
 }
 
-bool VideoSource::at_end(std::size_t ended) const {
-  return options_.uneven == Uneven::kShortest ? ended > 0 : ended == views_.size();
+bool VideoSource::at_end(const std::vector<char>& ended) const {
+  const auto over = std::ranges::count(ended, 1);
+  if (options_.uneven == Uneven::kShortest) return over > 0;
+  return over == std::ranges::count_if(videos_, [](const auto& video) { return video != nullptr; });
 }
 
-cv::Mat VideoSource::read_view(const View& view, std::int64_t frame, char& ended) const {
-  std::optional<cv::Mat> image = view.video->read(file_frame(frame));
+cv::Mat VideoSource::read_view(std::size_t camera, std::int64_t frame, char& ended) const {
+  if (!videos_[camera]) return {};
+  VideoFile& video = *videos_[camera];
+  std::optional<cv::Mat> image = video.read(file_frame(frame));
   if (!image) {
-    check_end(*view.video);
+    check_end(video);
     ended = 1;
     return {};
   }
-  const Camera& camera = scene_->cameras[view.camera];
-  if (!image->empty() && (image->cols != camera.width() || image->rows != camera.height())) {
-    throw UserError("frame " + std::to_string(frame + 1) + " of " + view.video->path().string() +
-                    " is " + size_text(image->cols, image->rows) + ", the calibration is for " +
-                    size_text(camera.width(), camera.height()) +
+  const std::string fault =
+      image->empty() ? "" : size_fault(scene_->cameras[camera], image->cols, image->rows);
+  if (!fault.empty()) {
+    throw UserError("frame " + std::to_string(frame + 1) + " of " + video.path().string() + fault +
                     "; cut the file there, or convert all of it to one size");
   }
   return std::move(*image);
 }
 
 bool VideoSource::do_read(NodeIo& io) {
-  auto frames = std::make_shared<FrameSet>();
-  frames->frame = io.frame();
-  frames->time_ns = io.time_ns();
-  frames->views.resize(scene_->cameras.size());
-  std::vector<char> ended(views_.size());
-  parallel_for(views_.size(), [&](std::size_t i) {
-    const std::size_t camera = views_[i].camera;
-    frames->views[camera] = with_camera(scene_->cameras[camera], io.frame(),
-                                        [&] { return read_view(views_[i], io.frame(), ended[i]); });
-  });
-  if (at_end(static_cast<std::size_t>(std::ranges::count(ended, 1)))) return false;
+  std::vector<char> ended(videos_.size());
+  auto frames =
+      read_views(*scene_, io, [&](std::size_t c) { return read_view(c, io.frame(), ended[c]); });
+  if (at_end(ended)) return false;
   io.out(0, std::move(frames));
   return true;
 }

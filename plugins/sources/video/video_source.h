@@ -43,22 +43,18 @@ class VideoSource final : public Source {
   std::string do_content_key() const override;
 
  private:
-  struct View {
-    std::size_t camera = 0;  // index into the scene's cameras
-    std::unique_ptr<VideoFile> video;
-  };
-
   std::int64_t file_frame(std::int64_t frame) const;
   std::int64_t run_frames(std::int64_t file_frames) const;
   /// Throws UserError when a video ended well before its header says.
   void check_end(const VideoFile& video) const;
-  /// Is the run over when that many videos are?
-  bool at_end(std::size_t ended) const;
-  cv::Mat read_view(const View& view, std::int64_t frame, char& ended) const;
+  /// Is the run over when the videos of those cameras are?
+  bool at_end(const std::vector<char>& ended) const;
+  cv::Mat read_view(std::size_t camera, std::int64_t frame, char& ended) const;
 
   Options options_;
   std::shared_ptr<const Scene> scene_;
-  std::vector<View> views_;  // by rising camera index
+  std::vector<std::unique_ptr<VideoFile>>
+      videos_;              // by camera of the scene; null where it has none
 };
 
 }  // namespace plaza::sources

@@ -8,6 +8,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Pair;
 
 // (number in view 0, number in view 1) of each frame
@@ -74,7 +75,7 @@ TEST_F(VideoSourceTest, CamerasDeclaredMissingAreEmptyViews) {
   options_.files.erase("a");
   options_.missing_cameras = {"a"};
   auto source = make();
-  EXPECT_THAT(source->check(), ::testing::IsEmpty());
+  EXPECT_THAT(source->check(), IsEmpty());
   source->open();
   const Numbers got = numbers(source.rest());
   ASSERT_EQ(got.size(), 9U);
@@ -177,7 +178,7 @@ TEST_F(VideoSourceTest, AnotherSizeThanCalibratedNamesCameraAndFrame) {
   source->open();
   const UserError error = user_error([&] { source.frames(0); });
   EXPECT_THAT(error.what(), AllOf(HasSubstr("frame 1 of "), HasSubstr("b.avi is 32x32"),
-                                  HasSubstr("the calibration is for 64x48")));
+                                  HasSubstr("the calibration of camera 'b' is for 64x48")));
   EXPECT_EQ(error.context().camera, "b");
 }
 
