@@ -308,6 +308,7 @@ class Run {
     for (const std::string& note : missing_views_.notes()) {
       report_.notes.push_back("node '" + plan_.nodes[plan_.clock].name + "', " + note);
     }
+    for (const PlannedNode& node : plan_.nodes) add_notes(node);
     report_.complete = !ended();
     report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     if (fault_) {
@@ -318,6 +319,17 @@ class Run {
     attempt([this] {
       write_summary(options_.output_folder, summary());
       report_.artifacts.push_back({options_.output_folder / "summary.json", "figures of the run"});
+    });
+  }
+
+  /// What a source met that was no error.
+  void add_notes(const PlannedNode& node) {
+    if (node.source == nullptr) return;
+    attempt([&] {
+      const auto notes = guarded(node.name, std::nullopt, [&] { return node.source->notes(); });
+      for (const std::string& note : notes) {
+        report_.notes.push_back("node '" + node.name + "', " + note);
+      }
     });
   }
 

@@ -91,6 +91,7 @@ Diagnostics VideoSource::do_check() const {
 SourceInfo VideoSource::do_open() {
   videos_.clear();
   videos_.resize(scene_->cameras.size());
+  uneven_end_.clear();
   for (std::size_t c = 0; c < videos_.size(); ++c) {
     const auto file = options_.files.find(scene_->cameras[c].name());
     if (file == options_.files.end()) continue;
@@ -170,6 +171,33 @@ bool VideoSource::at_end(const std::vector<char>& ended) const {
   return over == std::ranges::count_if(videos_, [](const auto& video) { return video != nullptr; });
 }
 
+// Without a word a run that ends early would look whole. The headers of those that go on are not
+// exact, and their ends were not reached.
+void VideoSource::note_uneven_end(const std::vector<char>& ended, std::int64_t frames) {
+  std::string over;
+  std::string longer;
+  for (std::size_t c = 0; c < videos_.size(); ++c) {
+    if (!videos_[c]) continue;
+    const std::string name = "'" + scene_->cameras[c].name() + "'";
+    if (ended[c] == 1) {
+      over += (over.empty() ? "" : ", ") + name;
+      continue;
+    }
+    longer += (longer.empty() ? "" : ", ") + name;
+    const std::int64_t promised = run_frames(videos_[c]->header().frame_count);
+    if (promised > frames) longer += " (" + std::to_string(promised) + " by its header)";
+  }
+  if (longer.empty()) return;
+  uneven_end_ = "the video of camera " + over + " ends after " + std::to_string(frames) +
+                " frames, and the run with it, before " + longer +
+                "; to go on without the views that have ended, set \"uneven\": \"missing\"";
+}
+
+std::vector<std::string> VideoSource::do_notes() const {
+  if (uneven_end_.empty()) return {};
+  return {uneven_end_};
+}
+
 cv::Mat VideoSource::read_view(std::size_t camera, std::int64_t frame, char& ended) const {
   if (!videos_[camera]) return {};
   VideoFile& video = *videos_[camera];
@@ -192,7 +220,10 @@ bool VideoSource::do_read(NodeIo& io) {
   std::vector<char> ended(videos_.size());
   auto frames =
       read_views(*scene_, io, [&](std::size_t c) { return read_view(c, io.frame(), ended[c]); });
-  if (at_end(ended)) return false;
+  if (at_end(ended)) {
+    note_uneven_end(ended, io.frame());
+    return false;
+  }
   io.out(0, std::move(frames));
   return true;
 }

@@ -41,6 +41,7 @@ class VideoSource final : public Source {
   void do_seek(std::int64_t frame) override;
   bool do_read(NodeIo& io) override;
   std::string do_content_key() const override;
+  std::vector<std::string> do_notes() const override;
 
  private:
   std::int64_t file_frame(std::int64_t frame) const;
@@ -49,12 +50,14 @@ class VideoSource final : public Source {
   void check_end(const VideoFile& video) const;
   /// Is the run over when the videos of those cameras are?
   bool at_end(const std::vector<char>& ended) const;
+  void note_uneven_end(const std::vector<char>& ended, std::int64_t frames);
   cv::Mat read_view(std::size_t camera, std::int64_t frame, char& ended) const;
 
   Options options_;
   std::shared_ptr<const Scene> scene_;
   std::vector<std::unique_ptr<VideoFile>>
       videos_;              // by camera of the scene; null where it has none
+  std::string uneven_end_;  // for the run's report; empty: none was met
 };
 
 }  // namespace plaza::sources

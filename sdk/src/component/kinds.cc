@@ -83,6 +83,7 @@ bool Source::read(NodeIo& io) {
 }
 bool Source::do_people_free(std::int64_t /*frame*/) const { return false; }
 std::string Source::do_content_key() const { return {}; }
+std::vector<std::string> Source::do_notes() const { return {}; }
 void Source::do_process(NodeIo& /*io*/) { throw InternalError("sources are read, not processed"); }
 
 ShapeModel::~ShapeModel() = default;

@@ -73,6 +73,17 @@ TEST_P(DamagedInput, ViewsWithoutImagesAreNamedAndTheRunIsComplete) {
   EXPECT_EQ(summary()["complete"], true);
 }
 
+TEST_P(DamagedInput, VideosOfDifferentLengthsAreNamedAndTheRunIsComplete) {
+  write_video(folder_ / "a.avi", 5);
+  write_video(folder_ / "b.avi", 8);
+  const RunReport report = run(kVideos);
+  EXPECT_TRUE(report.complete);
+  EXPECT_EQ(report.frames, 5);
+  EXPECT_THAT(report.notes,
+              ElementsAre(HasSubstr("node 'cameras', the video of camera 'a' ends after 5 frames, "
+                                    "and the run with it, before 'b' (8 by its header)")));
+}
+
 TEST_P(DamagedInput, AnotherSizeHalfWayEndsTheRunWithValidPartialOutput) {
   make_images(6);
   cv::imwrite(image("b", 5).string(), numbered_image(5, 32, 24));

@@ -58,6 +58,36 @@ TEST_F(VideoSourceTest, EndsWithTheShortestVideo) {
                                                   Pair(3, 23), Pair(4, 24), Pair(5, 25)));
 }
 
+TEST_F(VideoSourceTest, SaysWhichVideoEndedBeforeTheOthers) {
+  auto source = make();
+  source->open();
+  EXPECT_NE(source.frames(0), nullptr);
+  EXPECT_THAT(source->notes(), IsEmpty()) << "no end was met";
+  source.rest(1);
+  EXPECT_THAT(
+      source->notes(),
+      ElementsAre("the video of camera 'a' ends after 6 frames, and the run with it, before 'b' "
+                  "(9 by its header); to go on without the views that have ended, set \"uneven\": "
+                  "\"missing\""));
+  source->open();
+  EXPECT_THAT(source->notes(), IsEmpty());
+}
+
+TEST_F(VideoSourceTest, SaysNothingOfVideosThatEndTogetherOrGoOn) {
+  write_video(options_.files["a"], 9);
+  auto even = make();
+  even->open();
+  EXPECT_EQ(even.rest().size(), 9U);
+  EXPECT_THAT(even->notes(), IsEmpty());
+
+  write_video(options_.files["a"], 6);
+  options_.uneven = VideoSource::Uneven::kMissing;  // the kernel lists missing views
+  auto longest = make();
+  longest->open();
+  EXPECT_EQ(longest.rest().size(), 9U);
+  EXPECT_THAT(longest->notes(), IsEmpty());
+}
+
 TEST_F(VideoSourceTest, GoesOnWithMissingViewsWhereAllowed) {
   options_.uneven = VideoSource::Uneven::kMissing;
   auto source = make();

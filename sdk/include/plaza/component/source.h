@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "plaza/component/node.h"
 
@@ -47,12 +48,16 @@ class PLAZA_API Source : public Node {
   /// True when the given frame is known to show no people (synthetic worlds, recorded backgrounds).
   virtual bool do_people_free(std::int64_t frame) const;
   virtual std::string do_content_key() const;
+  virtual std::vector<std::string> do_notes() const;  ///< none, unless a source has its own
 
  public:
   bool people_free(std::int64_t frame) const { return do_people_free(frame); }
   /// Text that changes when what the source reads from outside changes (its files with sizes and
   /// times of modification), for cache keys; parameters need not be in it. Works before open().
   std::string content_key() const { return do_content_key(); }
+  /// What was met while reading that is no error, but that whoever reads the results should know:
+  /// a sentence each, without the node's name, for the report at the run's end.
+  std::vector<std::string> notes() const { return do_notes(); }
 
  private:
   void do_process(NodeIo& io) final;
