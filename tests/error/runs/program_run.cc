@@ -39,11 +39,14 @@ void ProgramRun::write_pipeline(std::int64_t frames, std::int64_t delay_us, cons
   write_text(folder_ / "pipeline.json", pipeline.dump(2));
 }
 
-std::vector<std::string> ProgramRun::command(const fs::path& out, int threads) const {
-  return {PLAZA_PROGRAM,   "run",         (folder_ / "pipeline.json").string(),
-          "--plugin-path", PLAZA_DOUBLES, "--out",
-          out.string(),    "--threads",   std::to_string(threads),
-          "--quiet"};
+std::vector<std::string> ProgramRun::command(const fs::path& out, int threads,
+                                             const std::vector<std::string>& options) const {
+  std::vector<std::string> words = {
+      PLAZA_PROGRAM,   "run",         (folder_ / "pipeline.json").string(),
+      "--plugin-path", PLAZA_DOUBLES, "--out",
+      out.string(),    "--threads",   std::to_string(threads)};
+  words.insert(words.end(), options.begin(), options.end());
+  return words;
 }
 
 json ProgramRun::summary(const fs::path& out) {

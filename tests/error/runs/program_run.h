@@ -21,7 +21,8 @@ class ProgramRun : public ::testing::Test {
   /// `more` nodes behind them.
   void write_pipeline(std::int64_t frames, std::int64_t delay_us, const nlohmann::json& more = {});
   /// `plaza run` of it into `out`, for a shell or, as words, for exec.
-  std::vector<std::string> command(const std::filesystem::path& out, int threads) const;
+  std::vector<std::string> command(const std::filesystem::path& out, int threads,
+                                   const std::vector<std::string>& options = {"--quiet"}) const;
 
   /// Everything that bears its final name, and every part, is valid: whole JSON, whole rows of one
   /// width. A complete run has left no part.
