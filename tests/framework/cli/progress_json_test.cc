@@ -19,6 +19,7 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 bool is_text(const json& value) { return value.is_string() && value != ""; }
 bool is_truth(const json& value) { return value.is_boolean(); }
