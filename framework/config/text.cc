@@ -56,7 +56,7 @@ std::optional<std::string> nearest(std::string_view word,
     const std::size_t limit = longest < 3 ? 1 : std::max<std::size_t>(1, longest / 3);
     std::size_t distance = edit_distance(wanted, other);
     if (distance >= longest) continue;
-    // "sigma" for "sigma_px", "grid" for "hierarchical-grid": a whole part of the name
+    // "sigma" for "sigma_px", "rate" for "frame_rate": a whole part of the name
     const bool is_part =
         wanted.size() >= 3 && (other.starts_with(wanted + "_") || other.ends_with("_" + wanted));
     if (is_part) distance = std::min(distance, limit);

@@ -14,8 +14,6 @@ void register_test_parts(ComponentRegistrar& registrar);    ///< test_parts.cc
 void register_test_results(ComponentRegistrar& registrar);  ///< test_results.cc
 
 /// What a constructor throws when the value at `pointer` is wrong.
-inline UserError fault(const std::string& pointer, const std::string& message) {
-  return UserError(Diagnostic{.where = {}, .pointer = pointer, .message = message});
-}
+UserError fault(const std::string& pointer, const std::string& message);
 
 }  // namespace plaza::test

@@ -5,6 +5,10 @@
 
 namespace plaza::test {
 
+UserError fault(const std::string& pointer, const std::string& message) {
+  return UserError(Diagnostic{.where = {}, .pointer = pointer, .message = message});
+}
+
 void register_components(ComponentRegistrar& registrar) {
   register_test_images(registrar);
   register_test_people(registrar);

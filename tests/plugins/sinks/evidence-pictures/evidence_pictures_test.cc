@@ -9,6 +9,7 @@
 #include "plaza/data/evidence.h"
 #include "plaza/data/ground_likelihood.h"
 #include "tests/plugins/sinks/sink_scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plaza::evidence_pictures {
 namespace {
@@ -28,7 +29,7 @@ struct SinkRun {
   std::shared_ptr<Scene> scene = test::ring_scene(2);
   EvidencePictures::Options options;
   bool second_view = true, likelihood = false;
-  test::TestFolder folder;
+  test::TemporaryFolder folder;
   std::vector<Artifact> artifacts;
 
   void run(std::int64_t frames) {
