@@ -1,12 +1,17 @@
 #include "tests/support/test_components.h"
 
+#include <utility>
+
 #include "tests/support/into_registry.h"
 #include "tests/support/test_component_groups.h"
 
 namespace plaza::test {
 
 UserError fault(const std::string& pointer, const std::string& message) {
-  return UserError(Diagnostic{.where = {}, .pointer = pointer, .message = message});
+  Diagnostic diagnostic;
+  diagnostic.pointer = pointer;
+  diagnostic.message = message;
+  return UserError(std::move(diagnostic));
 }
 
 void register_components(ComponentRegistrar& registrar) {

@@ -46,7 +46,9 @@ class Video : public EmptySource {
     Diagnostics faults;
     for (const auto& [camera, file] : options_.files) {
       if (!std::filesystem::exists(file)) {
-        faults.push_back({{}, "/files/" + camera, "there is no file " + file.string()});
+        Diagnostic& missing = faults.emplace_back();
+        missing.pointer = "/files/" + camera;
+        missing.message = "there is no file " + file.string();
       }
     }
     return faults;
