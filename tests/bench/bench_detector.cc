@@ -66,8 +66,10 @@ class Pets {
       const std::string& name = plan_.nodes[i].name;
       if (name == "edges" || name == "detector") nodes_.push_back(i);
     }
-    detector_ = dynamic_cast<const HierarchicalGrid*>(plan_.nodes[nodes_.back()].node.get());
-    if (nodes_.size() != 2 || detector_ == nullptr) {
+    if (nodes_.size() == 2) {
+      detector_ = dynamic_cast<const HierarchicalGrid*>(plan_.nodes[nodes_.back()].node.get());
+    }
+    if (detector_ == nullptr) {
       throw InternalError("pets-s2l1.json isn't edges and a ground grid any more");
     }
     FrameReader reader(plan_, *resolved_.scene);
