@@ -203,7 +203,7 @@ void Modality::do_process(NodeIo& io) {
 
 Detector::~Detector() = default;
 Observations Detector::detect(const NodeIo& io) const {
-  return std::move(detect_all(io).observations);
+  return detect_all(io).observations;
 }
 Detector::Detected Detector::detect_all(const NodeIo& io) const {
   Detected found = do_detect_all(io);
