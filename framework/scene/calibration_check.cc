@@ -85,11 +85,11 @@ std::vector<std::string> lens_faults(const Camera& camera) {
         "image size they were estimated for");
   }
   if (std::acos(std::clamp(widest, -1.0, 1.0)) < 2.5e-3) {
-    faults.push_back(
+    faults.emplace_back(
         "the field of view is below 0.3 degrees: the focal length is too large for the "
         "image; check its unit");
   } else if (share <= kLargestFoldedShare && widest < std::cos(1.5)) {
-    faults.push_back(
+    faults.emplace_back(
         "rays at the image's border are more than 86 degrees off the optical axis: the "
         "focal length is too small for the image, or the distortion too strong");
   }

@@ -17,7 +17,10 @@ void fail_if(const Failure& failure, const std::string& phase, std::int64_t fram
 }
 
 Diagnostics refusal(const std::string& pointer) {
-  return {{.where = {}, .pointer = pointer, .message = "can't be used; choose another"}};
+  Diagnostics faults(1);
+  faults[0].pointer = pointer;
+  faults[0].message = "can't be used; choose another";
+  return faults;
 }
 
 void work(const Work& options, std::int64_t frame) {
