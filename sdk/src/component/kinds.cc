@@ -202,9 +202,7 @@ void Modality::do_process(NodeIo& io) {
 }
 
 Detector::~Detector() = default;
-Observations Detector::detect(const NodeIo& io) const {
-  return detect_all(io).observations;
-}
+Observations Detector::detect(const NodeIo& io) const { return detect_all(io).observations; }
 Detector::Detected Detector::detect_all(const NodeIo& io) const {
   Detected found = do_detect_all(io);
   for (std::size_t i = 0; i < found.observations.items.size(); ++i)

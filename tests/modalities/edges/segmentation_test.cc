@@ -120,7 +120,8 @@ TEST(Link, GrowsNoFurtherThanItMay) {
 }
 
 TEST(Link, EndsWhenFewEndPointsMove) {
-  SegmentationOptions options{.orientation_threshold = 0.9, .min_contour_px = 1, .link_px = 20, .link_end_points = 3};
+  SegmentationOptions options{
+      .orientation_threshold = 0.9, .min_contour_px = 1, .link_px = 20, .link_end_points = 3};
   EXPECT_EQ(with_gap(9, options).points.size(), 26u - 13u + 2u) << "two ends move, once";
   options.link_end_points = 2;
   EXPECT_EQ(with_gap(9, options).points.size(), 26u);
