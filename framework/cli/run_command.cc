@@ -1,17 +1,16 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "framework/cache/cache_folder.h"
 #include "framework/cli/commands.h"
 #include "framework/cli/context.h"
 #include "framework/cli/interrupt.h"
 #include "framework/cli/run_report.h"
+#include "framework/config/frame_range.h"
 #include "framework/config/pipeline.h"
 #include "framework/execution/run.h"
 #include "plaza/core/error.h"
@@ -30,45 +29,16 @@ struct RunArguments {
   std::string progress = "text";
 };
 
-std::optional<std::int64_t> whole_number(std::string_view text) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
-  return value;
-}
-
-/// "A:B"; either side may be empty: from the first frame, to the last.
 void read_frames(const std::string& text, RunOptions& options) {
   if (text.empty()) return;
-  const auto refuse = [&text] {
+  const auto range = parse_frame_range(text);
+  if (!range) {
     throw UserError("--frames " + text +
                     ": give A:B with 0 <= A < B, frames from A (the first is 0) to " +
                     "before B; either may be left out");
-  };
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) refuse();
-  const std::string_view first = std::string_view(text).substr(0, colon);
-  const std::string_view end = std::string_view(text).substr(colon + 1);
-  if (!first.empty()) {
-    const auto value = whole_number(first);
-    if (!value) refuse();
-    options.first_frame = *value;
   }
-  if (!end.empty()) {
-    options.end_frame = whole_number(end);
-    if (!options.end_frame) refuse();
-  }
-  if (options.end_frame && *options.end_frame <= options.first_frame) refuse();
-}
-
-std::filesystem::path default_cache_folder() {
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg != nullptr && *xdg == '/') {
-    return std::filesystem::path(xdg) / "plaza";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return std::filesystem::path(home) / ".cache" / "plaza";
-  }
-  return std::filesystem::temp_directory_path() / "plaza-cache";
+  options.first_frame = range->first;
+  options.end_frame = range->end;
 }
 
 RunOptions options_of(const RunArguments& arguments) {

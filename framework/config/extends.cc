@@ -203,6 +203,10 @@ void merge_component(ConfigValue& base, ConfigValue change) {
   merge_component(base, std::move(change), nullptr);
 }
 
+void merge_config(ConfigValue& base, ConfigValue change, DiagnosticSink& diagnostics) {
+  merge_value(base, std::move(change), &diagnostics);
+}
+
 MergedConfig read_merged(std::string_view text, const fs::path& file, DiagnosticSink& diagnostics) {
   std::vector<ConfigValue> chain;  // the one asked for first
   MergedConfig merged;

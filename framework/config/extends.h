@@ -27,4 +27,7 @@ MergedConfig read_merged(std::string_view text, const std::filesystem::path& fil
 /// Puts `change` over `base`, the rule for one node or part.
 void merge_component(ConfigValue& base, ConfigValue change);
 
+/// Puts `change` over `base`, whatever the two are, by the same rules; faults go to `diagnostics`.
+void merge_config(ConfigValue& base, ConfigValue change, DiagnosticSink& diagnostics);
+
 }  // namespace plaza

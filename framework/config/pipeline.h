@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,9 @@
 #include "plaza/geometry/scene.h"
 
 namespace plaza {
+
+struct ConfigValue;
+class DiagnosticSink;
 
 /// Where a value of the configuration was written, and its JSON pointer in that file. The `file` of
 /// a value given on the command line is "--set /nodes/edges/sigma_px=2.5", that of a default is
@@ -78,6 +82,8 @@ struct ResolvedPipeline {
 struct PipelineRequest {
   std::filesystem::path file;
   std::vector<std::string> sets;  ///< "/nodes/edges/sigma_px=2.5"
+  /// What else is to be changed once all files are merged and before anything is checked.
+  std::function<void(ConfigValue& root, DiagnosticSink& diagnostics)> edit = nullptr;
 };
 
 /// Reads, merges, checks and wires a pipeline. Every fault that can be found without making

@@ -154,6 +154,7 @@ Reading read_with_faults(std::string_view text, const PipelineRequest& request,
   Reading reading;
   reading.pipeline.file = request.file;
   MergedConfig config = read_merged(text, request.file, diagnostics);
+  if (request.edit) request.edit(config.root, diagnostics);
   apply_sets(config.root, request.sets, registry, diagnostics);
   TopLevelReader(config.root, reading.pipeline, diagnostics).read();
   read_nodes(config.root, registry, reading.pipeline, diagnostics);

@@ -2,13 +2,12 @@
 
 #include "framework/config/json_document.h"
 #include "framework/config/pipeline.h"
+#include "framework/config/resolved_values.h"
 
 namespace plaza {
-namespace {
 
 using nlohmann::json;
 
-/// Paths as they are found from anywhere: resolved.json is read again from another folder.
 json with_absolute_paths(const json& value, const ParameterSpec& spec) {
   if (value.is_null()) return value;
   switch (spec.type) {
@@ -27,6 +26,8 @@ json with_absolute_paths(const json& value, const ParameterSpec& spec) {
       return value;
   }
 }
+
+namespace {
 
 class Writer {
  public:

@@ -49,13 +49,16 @@ class Setter {
       fail("expected /nodes/NODE/PARAMETER=VALUE, there is no \"=\"");
       return;
     }
-    pointer_ = option.substr(0, equals);
-    if (!pointer_.starts_with('/')) {
-      fail("expected /nodes/NODE/PARAMETER=VALUE, the target begins with \"/\"");
-      return;
-    }
-    tokens_ = pointer_tokens(pointer_);
-    value_text_ = option.substr(equals + 1);
+    aim(option.substr(0, equals));
+    value_ = parse_value(option.substr(equals + 1), origin_);
+  }
+  Setter(const Setting& setting, const Registry& registry, DiagnosticSink& diagnostics)
+      : registry_(registry),
+        diagnostics_(diagnostics),
+        origin_(setting.origin),
+        value_(setting.value),
+        written_(true) {
+    aim(setting.pointer);
   }
 
   void apply(ConfigValue& root) {
@@ -73,11 +76,20 @@ class Setter {
     }
     ConfigValue* nodes = root.find("nodes");
     if (nodes == nullptr || !nodes->is_array()) return fail("the pipeline has no nodes");
-    if (tokens_.size() < 3) return fail("expected /nodes/NODE/PARAMETER=VALUE");
+    if (tokens_.size() < (written_ && value_.is_object() ? 2 : 3))
+      return fail("expected /nodes/NODE/PARAMETER=VALUE");
     in_list(*nodes, 1, "/nodes", "node");
   }
 
  private:
+  void aim(const std::string& pointer) {
+    if (!pointer.starts_with('/')) {
+      fail("expected /nodes/NODE/PARAMETER=VALUE, the target begins with \"/\"");
+      return;
+    }
+    tokens_ = pointer_tokens(pointer);
+  }
+
   void fail(const std::string& message) {
     failed_ = true;
     diagnostics_.add(origin_, message);
@@ -85,10 +97,18 @@ class Setter {
 
   Origin origin_at(const std::string& pointer) const { return {origin_.where, pointer}; }
 
+  /// The value as it stands at `pointer` of the pipeline. One that was written in a file keeps its
+  /// place there; one of the command line has none.
+  ConfigValue value_at(const std::string& pointer) const {
+    return written_ ? value_ : to_config_value(value_.to_json(), origin_at(pointer));
+  }
+
   /// Sets member `key` of an object at `pointer`.
   void put(ConfigValue& object, const std::string& key, const std::string& pointer) {
-    const Origin origin = origin_at(pointer + "/" + pointer_token(key));
-    object.set(key, origin, parse_value(value_text_, origin));
+    const std::string below = pointer + "/" + pointer_token(key);
+    ConfigValue* old = object.find(key);
+    if (written_ && old != nullptr) return merge_config(*old, value_, diagnostics_);
+    object.set(key, written_ ? origin_ : origin_at(below), value_at(below));
   }
 
   void in_list(ConfigValue& list, std::size_t depth, const std::string& pointer,
@@ -120,15 +140,18 @@ class Setter {
     ConfigValue& item = list.items[found];
     const std::string below = pointer + "/" + std::to_string(found);
     if (depth + 1 == tokens_.size()) {
+      if (written_ && item.is_object() && value_.is_object()) {
+        return merge_config(item, value_, diagnostics_);
+      }
       if (item.is_object() && (item.find("use") != nullptr || item.find("from") != nullptr)) {
         return fail(quote(token) + " is " + a_or_an(what) + "; name one of its parameters");
       }
-      item = parse_value(value_text_, origin_at(below));
+      item = value_at(below);
       return;
     }
     const ConfigValue* use = item.find("use");
     if (use != nullptr && depth + 2 == tokens_.size() && tokens_.back() == "use" &&
-        value_text_ == "null") {
+        value_.is_null()) {
       list.items.erase(list.items.begin() + static_cast<std::ptrdiff_t>(found));
       return;
     }
@@ -142,7 +165,7 @@ class Setter {
     if (depth + 1 == tokens_.size()) {
       const bool is_use = key == "use" && object.find("use") != nullptr;
       if (!is_use) {
-        if (key == "from" && value_text_ == "null") return object.erase("from");
+        if (key == "from" && value_.is_null()) return object.erase("from");
         return put(object, key, pointer);
       }
       ConfigValue change = to_config_value(nlohmann::json::object(), object.origin);
@@ -188,8 +211,8 @@ class Setter {
   const Registry& registry_;
   DiagnosticSink& diagnostics_;
   Origin origin_;  ///< of faults of the option itself
-  std::string pointer_;
-  std::string value_text_;
+  ConfigValue value_;
+  bool written_ = false;  ///< in a file, and so merged as what `extends` merges
   std::vector<std::string> tokens_;
   bool failed_ = false;
 };
@@ -199,6 +222,11 @@ class Setter {
 void apply_sets(ConfigValue& root, const std::vector<std::string>& sets, const Registry& registry,
                 DiagnosticSink& diagnostics) {
   for (const std::string& option : sets) Setter(option, registry, diagnostics).apply(root);
+}
+
+void apply_setting(ConfigValue& root, const Setting& setting, const Registry& registry,
+                   DiagnosticSink& diagnostics) {
+  Setter(setting, registry, diagnostics).apply(root);
 }
 
 }  // namespace plaza

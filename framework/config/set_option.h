@@ -16,4 +16,17 @@ namespace plaza {
 void apply_sets(ConfigValue& root, const std::vector<std::string>& sets, const Registry& registry,
                 DiagnosticSink& diagnostics);
 
+/// A value for one place of a pipeline, written in another file (a study).
+struct Setting {
+  std::string pointer;  ///< as in `--set`
+  Origin origin;        ///< where the pointer was written
+  ConfigValue value;
+};
+
+/// Applies one. Other than with `--set`, a component or a list of components is merged over what is
+/// there by the rules of `extends`, so the value may be a fragment of it; "/nodes/NAME" is a
+/// target, too. Faults name the place in the value's own file.
+void apply_setting(ConfigValue& root, const Setting& setting, const Registry& registry,
+                   DiagnosticSink& diagnostics);
+
 }  // namespace plaza

@@ -16,7 +16,7 @@ std::size_t index_of(const ExecutionPlan& plan, const PlannedNode& node) {
 
 void FrameReader::open() {
   for (const PlannedNode& node : plan_.nodes) {
-    if (node.source == nullptr) continue;
+    if (node.source == nullptr || !node.works) continue;
     const bool clock = index_of(plan_, node) == plan_.clock;
     const SourceInfo info = guarded(node.name, std::nullopt, [&] {
       return node.source->open(clock ? SourceRole::kClock : SourceRole::kFollower);
@@ -35,7 +35,8 @@ void FrameReader::keep(const std::filesystem::path& folder) {
 void FrameReader::seek(std::int64_t frame) {
   for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
     const PlannedNode& node = plan_.nodes[i];
-    if (node.source == nullptr || (i == plan_.clock && !info_.rereadable)) continue;
+    if (node.source == nullptr || !node.works) continue;
+    if (i == plan_.clock && !info_.rereadable) continue;
     guarded(node.name, frame, [&] { node.source->seek(frame); });
   }
   const PlannedNode& clock = plan_.nodes[plan_.clock];
@@ -114,7 +115,7 @@ bool FrameReader::read(FrameState& state) {
   if (!read_clock(state)) return false;
   for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
     const PlannedNode& node = plan_.nodes[i];
-    if (node.source == nullptr || i == plan_.clock) continue;
+    if (node.source == nullptr || i == plan_.clock || !node.works) continue;
     if (!read_source(node, state)) {
       state.failed_node = i;
       guarded(node.name, state.frame, [] {

@@ -130,7 +130,7 @@ std::vector<LearningTask> learning_tasks(const ExecutionPlan& plan,
   std::vector<LearningTask> tasks;
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
     Learner* const learner = plan.nodes[i].node->learner();
-    if (learner == nullptr) continue;
+    if (learner == nullptr || !plan.nodes[i].works) continue;
     tasks.push_back({.node = i, .learner = learner, .key = learning_key(plan, i, pipeline, scene)});
   }
   return tasks;

@@ -13,11 +13,4 @@ namespace plaza {
 std::string learning_key(const ExecutionPlan& plan, std::size_t index,
                          const ResolvedPipeline& pipeline, const Scene& scene);
 
-/// Text of everything in a scene that changes what a node computes.
-std::string scene_fingerprint(const Scene& scene);
-
-/// What tells a file's content without reading all of it: size, time of modification and a hash of
-/// both ends; of a folder its entries; "absent" otherwise.
-std::string file_identity(const std::filesystem::path& file);
-
 }  // namespace plaza

@@ -22,6 +22,7 @@ struct PlannedNode {
   std::vector<int> inputs;   ///< slot of each input, -1: not connected
   std::vector<int> outputs;  ///< slot of each output
   bool memory = false;
+  bool works = true;  ///< false: nobody needs what it would compute, so it is not called
 };
 
 /// A pipeline ready to be run: every output of every node has a slot in each frame.

@@ -9,6 +9,7 @@
 #include <set>
 #include <system_error>
 
+#include "framework/execution/demand.h"
 #include "framework/execution/disk_reserve.h"
 #include "framework/execution/evaluate.h"
 #include "framework/execution/frame_loop.h"
@@ -96,6 +97,7 @@ class Run {
     assembly_ = assemble(pipeline_, scene_, options_.output_folder);
     plan_ = make_plan(pipeline_, assembly_);
     branches_ = find_branches(pipeline_);
+    let_work();
     tasks_ = learning_tasks(plan_, pipeline_, *scene_);
     recall();
     reader_.open();
@@ -103,6 +105,16 @@ class Run {
       throw UserError("--frames begins at " + std::to_string(options_.first_frame) + ", but '" +
                       plan_.nodes[plan_.clock].name + "' has only " + std::to_string(*count) +
                       " frames (0 to " + std::to_string(*count - 1) + ")");
+    }
+  }
+
+  /// Says who has to be called at all.
+  void let_work() {
+    if (options_.draw) return;
+    const Demand demand =
+        demand_of(plan_, branches_, options_.draw, [](std::size_t, std::size_t) { return false; });
+    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
+      plan_.nodes[i].works = demand.works[i] || i == plan_.clock;
     }
   }
 
@@ -118,6 +130,7 @@ class Run {
       distrusted.insert(*recall.refused_node);
       assembly_ = assemble(pipeline_, scene_, options_.output_folder);
       plan_ = make_plan(pipeline_, assembly_);
+      let_work();
       tasks_ = learning_tasks(plan_, pipeline_, *scene_);
     }
   }
@@ -148,7 +161,7 @@ class Run {
   void add_render_task(std::size_t index) {
     const PlannedNode& node = plan_.nodes[index];
     auto* const renderer = dynamic_cast<Renderer*>(node.node.get());
-    if (renderer == nullptr) return;
+    if (renderer == nullptr || !node.works) return;
     RenderTask task{.node = index, .renderer = renderer, .tracks = {}, .ground_truth = {}};
     const ComponentDeclaration& declaration = node.resolved->entry->declaration;
     if (const auto input = input_of_type(declaration, Tracks::kPort)) {
@@ -202,6 +215,7 @@ class Run {
     auto start = SteadyClock::now();
     for (const std::size_t index : group.nodes) {
       const PlannedNode& node = plan_.nodes[index];
+      if (!node.works) continue;
       state.failed_node = index;  // until it has not failed
       guarded(node.name, state.frame, [&] {
         NodeIo io(state.frame, state.time_ns, state.slots.data(), node.inputs, node.outputs);
@@ -218,7 +232,8 @@ class Run {
     recorder_->add_frame(state);
     for (std::size_t i = 0; i < timings_.size(); ++i) {
       timings_[i].seconds += 1e-9 * static_cast<double>(state.node_ns[i]);
-      if (!draws_[i]) ++timings_[i].calls;  // those that draw are counted where they do
+      if (plan_.nodes[i].works && !draws_[i])
+        ++timings_[i].calls;  // those that draw are counted where they do
     }
     for (RenderTask& task : renderers_) {
       if (task.ground_truth_slot < 0) continue;
@@ -243,7 +258,7 @@ class Run {
                 plan_.nodes.size());
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
       const PlannedNode& node = plan_.nodes[i];
-      if (node.source != nullptr || i == failed_node_) continue;
+      if (node.source != nullptr || i == failed_node_ || !node.works) continue;
       const auto start = SteadyClock::now();
       const bool good = attempt([&] {
         guarded(node.name, std::nullopt, [&] {
@@ -289,7 +304,7 @@ class Run {
       });
     };
     for (const PlannedNode& node : plan_.nodes) {
-      if (auto* const sink = dynamic_cast<Sink*>(node.node.get())) {
+      if (auto* const sink = dynamic_cast<Sink*>(node.node.get()); sink != nullptr && node.works) {
         add(node.name, [&] { return sink->finish(!ended()); });
       }
     }
@@ -309,6 +324,7 @@ class Run {
       report_.notes.push_back("node '" + plan_.nodes[plan_.clock].name + "', " + note);
     }
     for (const PlannedNode& node : plan_.nodes) add_notes(node);
+    for (const NodeTiming& timing : timings_) report_.node_seconds += timing.seconds;
     report_.complete = !ended();
     report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     if (fault_) {

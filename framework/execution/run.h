@@ -23,6 +23,7 @@ struct RunOptions {
   std::filesystem::path cache_folder;  ///< of learned models
   int threads = 0;                     ///< 0: all cores; 1: sequential, the reference
   ProgressStyle progress = ProgressStyle::kTerminal;
+  bool draw = true;  ///< false: sinks and renderers rest, and whatever works for them alone
 };
 
 /// What a run left behind.
@@ -30,7 +31,8 @@ struct RunReport {
   bool complete = false;
   std::int64_t frames = 0;
   double seconds = 0;
-  Evaluation evaluation;                       ///< of the main branch
+  double node_seconds = 0;  ///< what all nodes took together, also those of other cores
+  Evaluation evaluation;    ///< of the main branch
   std::map<std::string, Evaluation> branches;  ///< of the others, by the node that gives the tracks
   std::vector<Artifact> artifacts;
   std::string stop_reason;         ///< why it is not complete

@@ -1,6 +1,7 @@
 #include "tests/support/double_behavior.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
@@ -12,6 +13,7 @@ void fail_if(const Failure& failure, const std::string& phase, std::int64_t fram
   if (failure.fail_in != phase || failure.fail_at != frame) return;
   if (failure.error == "user") throw UserError("asked to fail; ask for something else");
   if (failure.error == "internal") throw InternalError("asked to fail");
+  if (failure.error == "crash") std::abort();
   if (failure.error == "foreign") throw std::out_of_range("a plugin's own trouble");
   throw 42;
 }

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "framework/cache/component_key.h"
 #include "framework/execution/learning_key.h"
 #include "tests/support/execution_fixture.h"
 

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/error/runs/program_run.h"
+
+namespace plaza::test {
+
+/// Studies of the real program over the doubles.
+class StudyProgram : public ProgramRun {
+ protected:
+  /// Writes study.json over pipeline.json.
+  void write_study(nlohmann::json study) const {
+    study["plaza_study"] = 1;
+    study["pipeline"] = "pipeline.json";
+    write_text(folder_ / "study.json", study.dump(2));
+  }
+
+  /// Starts `plaza study` as leader of a process group of its own.
+  pid_t start(const std::string& out, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> words = {PLAZA_STUDY_PROGRAM,
+                                      "study",
+                                      (folder_ / "study.json").string(),
+                                      "--plugin-path",
+                                      PLAZA_STUDY_DOUBLES,
+                                      "--cache-dir",
+                                      (folder_ / (out + "-cache")).string(),
+                                      "--out",
+                                      (folder_ / out).string()};
+    words.insert(words.end(), options.begin(), options.end());
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const std::string printed = (folder_ / (out + ".printed")).string();
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::setpgid(0, 0);
+      if (std::freopen(printed.c_str(), "w", stdout) == nullptr ||
+          std::freopen((printed + "-errors").c_str(), "w", stderr) == nullptr) {
+        ::_exit(126);
+      }
+      ::execv(arguments[0], arguments.data());
+      ::_exit(127);
+    }
+    return child;
+  }
+
+  /// Its exit status, or 128 + the signal that ended it.
+  static int end_of(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  int run(const std::string& out, const std::vector<std::string>& options = {}) const {
+    return end_of(start(out, options));
+  }
+
+  std::string printed(const std::string& out) const {
+    return read_text(folder_ / (out + ".printed"));
+  }
+  std::string errors(const std::string& out) const {
+    return read_text(folder_ / (out + ".printed-errors"));
+  }
+
+  /// What must be equal in every run of a study.
+  std::vector<std::string> tables(const std::string& out) const {
+    return {read_text(folder_ / (out + "/results.csv")), read_text(folder_ / (out + "/report.md"))};
+  }
+
+  static std::size_t results_in(const std::filesystem::path& out) {
+    std::size_t count = 0;
+    if (!std::filesystem::exists(out / "jobs")) return 0;
+    for (const auto& job : std::filesystem::directory_iterator(out / "jobs")) {
+      count += std::filesystem::exists(job.path() / "result.json") ? 1 : 0;
+    }
+    return count;
+  }
+};
+
+}  // namespace plaza::test
