@@ -1,0 +1,77 @@
+#include "plugins/sources/synthetic/body/body_mesh.h"
+
+#include "plugins/sources/synthetic/body/surface_nets.h"
+
+namespace plaza::synthetic {
+
+BodyMesh::BodyMesh(const Proportions& proportions, const Look& look, float edge_m)
+    : clothes_(BodyShape(proportions, look), look), bind_(clothes_.shape().bind_pose()) {
+  const BodyShape& shape = clothes_.shape();
+  ClosedSurface surface =
+      surface_nets([&](const Vec3& p) { return shape.distance(p); }, shape.bounds(), edge_m);
+  triangles_ = std::move(surface.triangles);
+  rest_ = std::move(surface.vertices);
+  rest_normals_.reserve(rest_.size());
+  weights_.reserve(rest_.size());
+  constexpr float kStep = 0.006f;
+  for (Vec3& p : rest_) {
+    Vec3 gradient;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 step = kStep * Vec3::Unit(k);
+      gradient[k] = shape.distance(p + step) - shape.distance(p - step);
+    }
+    const float length = gradient.norm();
+    rest_normals_.push_back(length > 1e-6f ? Vec3(gradient / length) : Vec3(0, 0, 1));
+    // the mean of crossings cuts corners; one step along the gradient puts it onto the surface
+    const float miss = std::clamp(shape.distance(p), -0.5f * edge_m, 0.5f * edge_m);
+    p -= miss * rest_normals_.back();
+    weights_.push_back(shape.weights(p));
+    main_segment_.push_back(weights_.back().segment[0]);
+  }
+  constexpr float kPart = 1.0f / kDivisions;
+  texels_.reserve(triangles_.size() * kDivisions * kDivisions);
+  for (const auto& t : triangles_) {
+    const Vec3 &a = rest_[t[0]], ab = rest_[t[1]] - a, ac = rest_[t[2]] - a;
+    for (int i = 0; i < kDivisions; ++i) {
+      for (int k = 0; k < 2 * (kDivisions - i) - 1; ++k) {  // upright and inverted parts in turn
+        const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
+        const float u = (static_cast<float>(i) + third) * kPart;
+        const float v = (static_cast<float>(k / 2) + third) * kPart;
+        texels_.push_back(clothes_.at(a + u * ab + v * ac));
+      }
+    }
+  }
+}
+
+const BodySurface& BodyMesh::surface(std::uint32_t triangle, float u, float v) const {
+  const float x = u * kDivisions, y = v * kDivisions;
+  const int i = std::clamp(static_cast<int>(x), 0, kDivisions - 1);
+  const int j = std::clamp(static_cast<int>(y), 0, kDivisions - 1 - i);
+  const bool inverted =
+      x - static_cast<float>(i) + y - static_cast<float>(j) > 1 && j < kDivisions - 1 - i;
+  // rows before this one hold 2 D - 1, 2 D - 3, ... parts
+  const int at = i * (2 * kDivisions - i) + 2 * j + (inverted ? 1 : 0);
+  return texels_[triangle * kDivisions * kDivisions + static_cast<std::size_t>(at)];
+}
+
+void BodyMesh::pose(const BodyPose& pose, std::span<Vec3> positions,
+                    std::span<Vec3> normals) const {
+  using Transform = Eigen::Matrix<float, 3, 4>;
+  std::array<Transform, kSegmentCount> move;
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const Eigen::Isometry3d world_from_bind =
+        pose.world_from_segment[s] * bind_.world_from_segment[s].inverse();
+    move[s] = world_from_bind.matrix().topRows<3>().cast<float>();
+  }
+  for (std::size_t v = 0; v < rest_.size(); ++v) {
+    const SkinWeights& w = weights_[v];
+    Transform blend = w.weight[0] * move[w.segment[0]];
+    for (std::size_t k = 1; k < w.weight.size(); ++k) {
+      if (w.weight[k] > 0) blend += w.weight[k] * move[w.segment[k]];
+    }
+    positions[v] = blend.leftCols<3>() * rest_[v] + blend.col(3);
+    normals[v] = (blend.leftCols<3>() * rest_normals_[v]).normalized();
+  }
+}
+
+}  // namespace plaza::synthetic

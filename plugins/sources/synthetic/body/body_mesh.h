@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plugins/sources/synthetic/body/body_shape.h"
+#include "plugins/sources/synthetic/body/clothes.h"
+#include "plugins/sources/synthetic/people/person.h"
+
+namespace plaza::synthetic {
+
+/// A clothed body as a closed mesh that follows its segments by linear-blend skinning.
+class BodyMesh {
+ public:
+  /// About 6000 triangles with the default edge length.
+  BodyMesh(const Proportions& proportions, const Look& look, float edge_m = 0.030f);
+
+  std::size_t vertex_count() const { return rest_.size(); }
+  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+  /// In the bind pose; what textures depend on.
+  const std::vector<Vec3>& rest() const { return rest_; }
+  const Clothes& clothes() const { return clothes_; }
+  /// What is seen at a point of a triangle, given by its barycentric coordinates of the second and
+  /// third corner: baked at the centres of kDivisions^2 equal parts of each triangle.
+  const BodySurface& surface(std::uint32_t triangle, float u, float v) const;
+  /// The segment that each vertex follows most.
+  const std::vector<std::uint8_t>& main_segment() const { return main_segment_; }
+
+  /// World positions and unit normals of all vertices; both spans hold vertex_count() entries.
+  void pose(const BodyPose& pose, std::span<Vec3> positions, std::span<Vec3> normals) const;
+
+ private:
+  static constexpr int kDivisions = 4;
+
+  Clothes clothes_;
+  BodyPose bind_;
+  std::vector<BodySurface> texels_;
+  std::vector<std::uint8_t> main_segment_;
+  std::vector<Vec3> rest_;
+  std::vector<Vec3> rest_normals_;
+  std::vector<SkinWeights> weights_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
+
+}  // namespace plaza::synthetic
