@@ -1,0 +1,121 @@
+#include "plugins/sources/synthetic/render/rays.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "plaza/core/error.h"
+
+namespace plaza::synthetic {
+namespace {
+
+constexpr float kNear = 1e-3f;
+
+void fill(RTCRay& ray, const Vec3& origin, const Vec3& direction, float reach, float time) {
+  ray.org_x = origin.x();
+  ray.org_y = origin.y();
+  ray.org_z = origin.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tnear = kNear;
+  ray.tfar = reach;
+  ray.time = time;
+  ray.mask = ~0u;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+/// Copies into Embree's own buffers: it wants 16 readable bytes behind the last vertex.
+void set_vertices(RTCGeometry geometry, unsigned step, const std::vector<Vec3>& vertices) {
+  void* buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                                         sizeof(Vec3), vertices.size());
+  if (buffer == nullptr) throw InternalError("Embree has no memory for a mesh");
+  std::memcpy(buffer, vertices.data(), vertices.size() * sizeof(Vec3));
+}
+
+void set_triangles(RTCGeometry geometry,
+                   const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  void* buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                         sizeof(triangles[0]), triangles.size());
+  if (buffer == nullptr) throw InternalError("Embree has no memory for a mesh");
+  std::memcpy(buffer, triangles.data(), triangles.size() * sizeof(triangles[0]));
+}
+
+}  // namespace
+
+RayDevice::RayDevice() : device_(rtcNewDevice("threads=1")) {
+  if (device_ == nullptr) {
+    throw InternalError("Embree does not start (error " +
+                        std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
+  }
+}
+RayDevice::~RayDevice() { rtcReleaseDevice(device_); }
+
+RayScene::RayScene(std::shared_ptr<const RayDevice> device)
+    : device_(std::move(device)), scene_(rtcNewScene(device_->get())) {
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
+}
+RayScene::~RayScene() { rtcReleaseScene(scene_); }
+
+std::optional<RayHit> RayScene::trace(const Vec3& origin, const Vec3& direction, float reach,
+                                      float time) const {
+  RTCRayHit query;
+  fill(query.ray, origin, direction, reach, time);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene_, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  RayHit hit;
+  hit.distance = query.ray.tfar;
+  hit.geometry = query.hit.geomID;
+  hit.triangle = query.hit.primID;
+  hit.u = query.hit.u;
+  hit.v = query.hit.v;
+  hit.normal = Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
+  return hit;
+}
+
+bool RayScene::blocked(const Vec3& origin, const Vec3& direction, float reach, float time) const {
+  RTCRay ray;
+  fill(ray, origin, direction, reach - kNear, time);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_, &context, &ray);
+  return ray.tfar < 0;
+}
+
+StageScene::StageScene(std::shared_ptr<const RayDevice> device,
+                       std::shared_ptr<const StageModel> model)
+    : RayScene(std::move(device)), model_(std::move(model)) {
+  RTCGeometry geometry = rtcNewGeometry(this->device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  set_vertices(geometry, 0, model_->vertices);
+  set_triangles(geometry, model_->triangles);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene());
+}
+
+PeopleScene::PeopleScene(std::shared_ptr<const RayDevice> device, std::vector<MovingBody> bodies)
+    : RayScene(std::move(device)), bodies_(std::move(bodies)) {
+  rtcSetSceneBuildQuality(scene(), RTC_BUILD_QUALITY_LOW);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const MovingBody& body = bodies_[i];
+    RTCGeometry geometry = rtcNewGeometry(this->device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
+    rtcSetGeometryTimeStepCount(geometry, 2);
+    set_vertices(geometry, 0, body.open);
+    set_vertices(geometry, 1, body.close);
+    set_triangles(geometry, body.mesh->triangles());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene(), geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene());
+}
+
+}  // namespace plaza::synthetic
