@@ -135,6 +135,11 @@ const std::map<std::string, Maker>& table() {
          return std::vector<Trial>{trial("numbered files", {{"pattern", pattern}}),
                                    trial("every third", {{"pattern", pattern}, {"step", 3}})};
        }},
+      {"synthetic",
+       [](const fs::path&) {
+         const Trial t = trial("two people", {{"scenario", "two-targets"}, {"frames", 6}});
+         return std::vector<Trial>{t, follower(t)};
+       }},
       {"video",
        [](const fs::path& files) {
          return std::vector<Trial>{

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plaza/data/frames.h"
+#include "plaza/data/ground_truth.h"
+#include "plaza/geometry/scene.h"
+#include "plugins/sources/synthetic/render/body_views.h"
+#include "plugins/sources/synthetic/render/view_renderer.h"
+#include "plugins/sources/synthetic/sensor/sensor.h"
+#include "plugins/sources/synthetic/world/world.h"
+
+namespace plaza::synthetic {
+
+struct LaboratoryOptions {
+  std::string scenario = "four-crossing";
+  std::uint64_t seed = 1;
+  double duration_s = 20;
+  std::optional<int> people;
+  int samples = 4;
+  double shutter_s = 0.012;
+  double calibration_error_px = 1.0;
+  double illumination_drift = 0.06;
+  RenderOptions render;
+  SensorOptions sensor;
+};
+
+/// A world of people, the place they are in, and the cameras that see it. Rendering of a moment is
+/// a pure function of the options and that moment.
+class Laboratory {
+ public:
+  /// Builds people and place and traces what stands still. Throws UserError as World does.
+  Laboratory(const LaboratoryOptions& options, std::shared_ptr<const Scene> scene);
+  ~Laboratory();
+
+  const World& world() const { return world_; }
+  /// 8-bit BGR images of all cameras, people included; `frame` may be negative: before the clip.
+  std::vector<cv::Mat> images(std::int64_t frame) const;
+  /// The same without anybody.
+  std::vector<cv::Mat> empty_images(std::int64_t frame) const;
+  std::vector<TruePerson> people(std::int64_t frame) const;
+  /// The bodies in the exposure of a frame, in the order of World::at().
+  std::vector<MovingBody> bodies(std::int64_t frame) const;
+  /// Without lens and sensor: linear radiance of one camera (CV_32FC3).
+  cv::Mat radiance(std::int64_t frame, std::size_t camera) const;
+  const StaticView& view(std::size_t camera) const;
+
+ private:
+  struct Eye;
+  double seconds(std::int64_t frame) const;
+  LightGains gains(std::int64_t frame) const;
+  std::uint32_t key(std::int64_t frame, std::size_t camera) const;
+
+  LaboratoryOptions options_;
+  std::shared_ptr<const Scene> scene_;
+  World world_;
+  std::vector<std::shared_ptr<const BodyMesh>> meshes_;  // by cast member
+  std::shared_ptr<const StageModel> model_;
+  std::shared_ptr<const RayDevice> device_;
+  std::unique_ptr<StageScene> stage_;
+  std::unique_ptr<Lights> lights_;
+  std::unique_ptr<AmbientField> ambient_;
+  std::vector<std::unique_ptr<Eye>> eyes_;  // by camera
+};
+
+/// The stage that a scenario plays on in a scene; throws UserError for an unknown scenario.
+Stage stage_of(const std::string& scenario, const Scene& scene);
+
+}  // namespace plaza::synthetic

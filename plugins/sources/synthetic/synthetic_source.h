@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "plaza/component/declaration.h"
+#include "plugins/sources/synthetic/laboratory.h"
+
+namespace plaza::synthetic {
+
+/// Renders people who act out a scenario in front of the scene's cameras, and tells the truth about
+/// them.
+class SyntheticSource final : public Source {
+ public:
+  struct Options {
+    std::string scenario = "four-crossing";
+    std::int64_t seed = 1;
+    std::int64_t frames = 500;
+    std::optional<int> people;
+    int samples = 4;
+    bool shadows = true;
+    bool reflections = true;
+    double shutter_ms = 12;
+    double calibration_error_px = 1.0;
+    double illumination_drift = 0.06;
+    double blur_px = 0.6;
+    double vignetting = 0.25;
+    double noise = 1.0;
+    double colour_spread = 1.0;
+    bool bayer = true;
+  };
+
+  static Declaration<Options> declare();
+  SyntheticSource(const Options& options, const BuildContext& context);
+  ~SyntheticSource() override;
+
+ protected:
+  Diagnostics do_check() const override;
+  SourceInfo do_open() override;
+  void do_seek(std::int64_t frame) override;
+  bool do_read(NodeIo& io) override;
+
+ private:
+  LaboratoryOptions laboratory_options() const;
+  const Laboratory& laboratory();
+
+  Options options_;
+  std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<Laboratory> laboratory_;  // from the first frame on: it takes seconds to build
+};
+
+}  // namespace plaza::synthetic
