@@ -11,14 +11,18 @@ double Rectangle::distance(const Vector2d& point) const {
   return outside.maxCoeff() <= 0 ? outside.maxCoeff() : outside.cwiseMax(0.0).norm();
 }
 
+Vector2d Door::hidden_place() const {
+  return aside.isZero() ? center_m : Vector2d(center_m - 1.1 * inward + 1.6 * aside);
+}
+
 Stage indoor_stage(const Rectangle& area) {
   Stage stage;
   stage.area = area;
   stage.walls = area.grown(0.8);
   const Rectangle& room = *stage.walls;
   // across the longer side's ends, so that ways from door to door cross the whole area
-  stage.doors.push_back({{room.low.x(), area.low.y() + 0.9}, {1, 0}});
-  stage.doors.push_back({{area.high.x() - 0.9, room.high.y()}, {0, -1}});
+  stage.doors.push_back({{room.low.x(), area.low.y() + 0.9}, {1, 0}, {0, 1}});
+  stage.doors.push_back({{area.high.x() - 0.9, room.high.y()}, {0, -1}, {-1, 0}});
   const Vector2d low = area.low;
   const Vector2d high = area.high;
   const Vector2d center = area.center();

@@ -27,8 +27,13 @@ struct Rectangle {
 struct Door {
   Eigen::Vector2d center_m;  ///< on the wall's inner side
   Eigen::Vector2d inward;    ///< unit vector into the room
+  /// Unit vector along the wall, to which people go when they are through; zero outdoors.
+  Eigen::Vector2d aside = Eigen::Vector2d::Zero();
   double width_m = 1.1;
   double height_m = 2.1;
+
+  /// Where people appear and vanish: 1.1 m behind the wall and 1.6 m to the side.
+  Eigen::Vector2d hidden_place() const;
 };
 
 enum class FurnitureKind { kTable, kCabinet, kCouch, kPlant, kBox };

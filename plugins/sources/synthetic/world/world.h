@@ -2,42 +2,23 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "plugins/sources/synthetic/people/person.h"
+#include "plugins/sources/synthetic/world/cast.h"
+#include "plugins/sources/synthetic/world/scenario_info.h"
 #include "plugins/sources/synthetic/world/stage.h"
 
 namespace plaza::synthetic {
-
-enum class ClothingStyle {
-  kAny,
-  kDark,  ///< very dark, hardly telling one person from the other (thesis table 3.1)
-};
-
-/// What does not change about a person.
-struct CastMember {
-  Proportions proportions;
-  std::uint64_t looks_seed = 0;    ///< of skin, hair, face
-  std::uint64_t clothing_key = 0;  ///< of clothes and shoes: equal keys, equal clothes
-  ClothingStyle style = ClothingStyle::kAny;
-  bool bag = false;
-};
-
-/// A scenario that can be asked for.
-struct ScenarioInfo {
-  std::string name;
-  std::string challenge;  ///< what makes it hard, after the thesis's table 3.1
-  bool indoor = true;     ///< plays in a room by default
-  int people = 0;         ///< at most present at once, unless another number is asked for
-};
 
 struct WorldOptions {
   std::string scenario = "four-crossing";  ///< one of World::scenarios()
   std::uint64_t seed = 1;
   double duration_s = 20;
-  std::optional<int> people;  ///< 2-10, instead of the scenario's own number where it has one
+  std::optional<int> people;  ///< 2-10, for scenarios with any_number; else their own
   Stage stage;
 };
 
@@ -46,11 +27,16 @@ struct WorldOptions {
 /// shorter one: what happens at a moment depends on scenario, seed, people and stage only.
 class World {
  public:
-  /// Throws UserError for an unknown scenario, a number of people outside 2-10 or one that the
-  /// scenario can't have, or an area too small for it.
+  /// Throws UserError for an unknown scenario, a number of people outside 2-10 or for a scenario
+  /// that has its own, or an area smaller than 3 m x 3 m.
   explicit World(const WorldOptions& options);
 
-  static const std::vector<ScenarioInfo>& scenarios();
+  /// A world is moved, not copied.
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  static std::vector<ScenarioInfo> scenarios();
 
   const Stage& stage() const { return stage_; }
   /// Everyone who appears at any time. A person who leaves and comes back is one member.
@@ -67,9 +53,20 @@ class World {
   std::optional<std::size_t> identity(std::size_t person, double seconds) const;
 
  private:
+  struct Presence;
+  /// A stay in the observed area.
+  struct Visit {
+    std::size_t person = 0;
+    double begin_s = 0;
+    double end_s = 0;
+  };
+  void find_visits();
+
   Stage stage_;
   std::vector<CastMember> cast_;
   double duration_s_;
+  std::vector<std::unique_ptr<Presence>> presences_;  // in the order in which they begin
+  std::vector<Visit> visits_;                         // the index is the identity
 };
 
 }  // namespace plaza::synthetic
