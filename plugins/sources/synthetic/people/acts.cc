@@ -44,8 +44,11 @@ void shake_hands(const Act& act, const Proportions& p, const Frame& own, double 
   const double pumping =
       std::exp(-std::max(since, 0.0) / 1.5) + 0.5 * std::max(0.0, slow_wave(act.seed, t, 4.0));
   const double shake = 0.028 * pumping * std::sin(2 * std::numbers::pi * 2.1 * since);
-  const Vector2d wrist = middle - 0.45 * p.hand_m * towards;
+  // palm to palm, each hand on its owner's right side
+  const Vector2d right(towards.y(), -towards.x());
+  const Vector2d wrist = middle - 0.5 * p.hand_m * towards + 0.015 * right;
   goals.hands[1].wrist_m = {wrist.x(), wrist.y(), height + shake};
+  goals.hands[1].pointing = {towards.x(), towards.y(), 0};
   goals.hands[1].weight = 1;
   goals.lean_rad = 0.06;
 }
@@ -60,8 +63,9 @@ void hug(const Act& act, const Proportions& p, const Frame& own, double t, ActGo
   const Vector2d around = other + 0.13 * towards - 0.06 * left;
   const double pat =
       0.02 * std::sin(2 * std::numbers::pi * 1.8 * t) * std::max(0.0, slow_wave(act.seed, t, 2.0));
-  goals.hands[0] = {{over.x(), over.y(), 0.77 * other_m + pat}, 1};
-  goals.hands[1] = {{around.x(), around.y(), 0.66 * std::min(other_m, p.stature_m)}, 1};
+  goals.hands[0] = {{over.x(), over.y(), 0.77 * other_m + pat}, Vector3d::Zero(), 1};
+  goals.hands[1] = {
+      {around.x(), around.y(), 0.66 * std::min(other_m, p.stature_m)}, Vector3d::Zero(), 1};
   goals.lean_rad = 0.10;
 }
 
@@ -82,8 +86,8 @@ void gesture(const Act& act, const Proportions& p, const Frame& own, double t, A
 
 /// Both hands at mirrored places of the own body.
 void hold(const Frame& own, double ahead, double aside, double up, ActGoals& goals) {
-  goals.hands[0] = {own.point(ahead, aside, up), 1};
-  goals.hands[1] = {own.point(ahead, -aside, up), 1};
+  goals.hands[0] = {own.point(ahead, aside, up), Vector3d::Zero(), 1};
+  goals.hands[1] = {own.point(ahead, -aside, up), Vector3d::Zero(), 1};
 }
 
 }  // namespace
@@ -124,8 +128,8 @@ ActGoals act_goals(const Act& act, const Proportions& p, const Vector2d& positio
       gesture(act, p, own, seconds, goals);
       break;
     case ActKind::kArmsCrossed:
-      goals.hands[0] = {own.point(0.19 * p.girth, -0.09, 0.655 * h), 1};
-      goals.hands[1] = {own.point(0.22 * p.girth, 0.10, 0.675 * h), 1};
+      goals.hands[0] = {own.point(0.19 * p.girth, -0.09, 0.655 * h), Vector3d::Zero(), 1};
+      goals.hands[1] = {own.point(0.22 * p.girth, 0.10, 0.675 * h), Vector3d::Zero(), 1};
       break;
     case ActKind::kHandsOnHips:
       hold(own, 0.05, p.hip_width_m / 2 + 0.13 * p.girth, 0.57 * h, goals);
@@ -137,7 +141,7 @@ ActGoals act_goals(const Act& act, const Proportions& p, const Vector2d& positio
       hold(own, -0.17 * p.girth, 0.05, 0.52 * h, goals);
       break;
     case ActKind::kPhone:
-      goals.hands[1] = {own.point(0.27, -0.06, 0.68 * h), 1};
+      goals.hands[1] = {own.point(0.27, -0.06, 0.68 * h), Vector3d::Zero(), 1};
       goals.head_down_rad = 0.45;
       break;
   }

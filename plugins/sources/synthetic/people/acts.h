@@ -38,7 +38,8 @@ struct Act {
 
 /// Where an act wants the wrists, and how firmly (0 not at all, 1 completely), left and right.
 struct HandGoal {
-  Eigen::Vector3d wrist_m = Eigen::Vector3d::Zero();  ///< world
+  Eigen::Vector3d wrist_m = Eigen::Vector3d::Zero();   ///< world
+  Eigen::Vector3d pointing = Eigen::Vector3d::Zero();  ///< of the hand; zero: as the forearm
   double weight = 0;
 };
 struct ActGoals {

@@ -221,6 +221,7 @@ PersonState BodyMotion::at(double t) const {
     const Vector3d shoulder = chest_m + chest * shoulder_offset(p, left);
     const Vector3d pole =
         upright * Vector3d(-0.55, left * 0.75, -0.6);  // elbows point back, out and down
+    arm.hand = arm.fore * about_y(-0.12);
     for (const ActGoals& goal : goals) {
       const HandGoal& hand = goal.hands[side];
       if (hand.weight <= 0) {
@@ -231,8 +232,10 @@ PersonState BodyMotion::at(double t) const {
       const Quaterniond fore = turned_to(upper, bones.lower);
       arm.upper = arm.upper.slerp(hand.weight, upper);
       arm.fore = arm.fore.slerp(hand.weight, fore);
+      const Quaterniond palm =
+          hand.pointing.isZero() ? fore * about_y(-0.12) : turned_to(fore, hand.pointing);
+      arm.hand = arm.hand.slerp(hand.weight, palm);
     }
-    arm.hand = arm.fore * about_y(-0.12);
   }
 
   PersonState state;

@@ -37,10 +37,14 @@ bool Director::is_leaving(std::size_t who) const {
                      [](const Order& order) { return order.kind == Order::Kind::kLeave; });
 }
 
-std::size_t Director::count_present() const {
-  return static_cast<std::size_t>(
-      std::count_if(crowd_.walkers.begin(), crowd_.walkers.end(),
-                    [](const Walker& walker) { return walker.present; }));
+std::size_t Director::count_claiming() const {
+  std::size_t count = 0;
+  for (std::size_t who = 0; who < crowd_.walkers.size(); ++who) {
+    const Walker& walker = crowd_.walkers[who];
+    const bool gone = is_leaving(who) && stage_.area.distance(walker.position) > 0.1;
+    count += walker.present && !gone ? 1 : 0;
+  }
+  return count;
 }
 
 Rectangle Director::floor() const {

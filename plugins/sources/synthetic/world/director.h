@@ -74,7 +74,8 @@ class Director {
   bool is_present(std::size_t who) const { return walker(who).present; }
   bool is_meeting(std::size_t who) const;
   bool is_leaving(std::size_t who) const;
-  std::size_t count_present() const;
+  /// How many are in the area or on their way there; not those on their way out who are through.
+  std::size_t count_claiming() const;
   /// The part of the area that scenarios play in: all of it, up to 7 m in each direction.
   Rectangle floor() const;
   /// A free place at least `margin_m` inside the floor, away from everyone but `except`.

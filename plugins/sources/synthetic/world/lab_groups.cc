@@ -51,7 +51,8 @@ class FourInteraction final : public Scenario {
     const Rectangle floor = director.floor();
     const Vector2d middle =
         floor.center() + Vector2d(random.uniform(-0.6, 0.6), random.uniform(-0.45, 0.2));
-    const bool all = random.chance(0.4);
+    all_ = !all_ && random.chance(0.7);
+    const bool all = all_;
     const double tilt = random.uniform(0, 2 * std::numbers::pi);
     for (std::size_t pair = 0; pair < (all ? 1U : 2U); ++pair) {
       Meeting meeting;
@@ -83,6 +84,8 @@ class FourInteraction final : public Scenario {
       director.meet(std::move(meeting));
     }
   }
+
+  bool all_ = false;
 };
 
 /// Thesis table 3.1, "Lab 6 Targets": the area is never without a few people, six at most, and
@@ -109,17 +112,17 @@ class SixTargets final : public Scenario {
 
  private:
   void schedule(Director& director) {
-    // at first two arrive; then one leaves as another one comes
-    director.later(-0.5, [&] { arrive(director); });
-    director.later(1.2, [&] { arrive(director); });
-    for (int i = 0; i < 60; ++i) {
-      const double at = 3.2 + 4.3 * i + director.random().uniform(-0.4, 0.4);
-      director.later(at, [&] { depart(director); });
-      director.later(at + 1.0, [&] { arrive(director); });
-    }
+    // at first two arrive; then someone leaves every few seconds, and someone else comes
+    director.later(-1.2, [&] { arrive(director); });
+    director.later(0.6, [&] { arrive(director); });
+    director.later(1.6, [&] { depart(director); });
   }
 
   void arrive(Director& director) {
+    if (director.count_claiming() >= 6) {
+      director.later(director.now_s() + 0.3, [&] { arrive(director); });
+      return;
+    }
     // someone who was here before comes back now and then
     std::size_t who = director.people();
     if (director.now_s() > 20 && director.random().chance(0.7)) {
@@ -129,9 +132,6 @@ class SixTargets final : public Scenario {
           break;
         }
       }
-    }
-    if (director.count_present() > 6) {
-      return;
     }
     if (who == director.people()) {
       who = director.engage(ClothingStyle::kAny);
@@ -148,11 +148,15 @@ class SixTargets final : public Scenario {
           director.walker(who).confined) {
         longest_ = who + 1;
         director.drop_orders(who);
-        // through the door that nobody is about to come through
-        director.leave(who, next_door_, director.random().uniform(1.1, 1.4));
+        director.leave(who, director.random().index(director.stage().doors.size()),
+                       director.random().uniform(1.1, 1.4));
+        director.later(director.now_s() + 0.5, [&] { arrive(director); });
+        director.later(director.now_s() + director.random().uniform(3.5, 4.1),
+                       [&] { depart(director); });
         return;
       }
     }
+    director.later(director.now_s() + 0.3, [&] { depart(director); });
   }
 
   std::size_t next_door_ = 0;

@@ -10,21 +10,31 @@ namespace {
 
 using Eigen::Vector2d;
 
+Vector2d longer_axis(const Rectangle& floor) {
+  return floor.size().x() > floor.size().y() ? Vector2d(1, 0) : Vector2d(0, 1);
+}
+
 /// Thesis table 3.1, "Lab 2 Targets": two people shake hands and talk, part for a moment, and meet
 /// again.
 class TwoTargets final : public Scenario {
  public:
   void begin(Director& director) override {
     const Rectangle floor = director.floor();
+    const Vector2d along = longer_axis(floor);
+    const Vector2d across(-along.y(), along.x());
     for (int i = 0; i < 2; ++i) {
       const double side = i == 0 ? -1.0 : 1.0;
       const std::size_t who = director.engage(ClothingStyle::kAny);
       const Vector2d place = director.free_near(
-          floor.center() + Vector2d(side * 0.36 * floor.size().x(),
-                                    director.random().uniform(-0.3, 0.3) * floor.size().y()));
-      director.appear(who, place, i == 0 ? 0.0 : std::numbers::pi);
+          floor.center() + side * 0.36 * floor.size().maxCoeff() * along +
+          director.random().uniform(-0.3, 0.3) * floor.size().minCoeff() * across);
+      director.appear(who, place, std::atan2(-side * along.y(), -side * along.x()));
     }
-    come_together(director);
+    // the first frames show them come
+    for (std::size_t who = 0; who < 2; ++who) {
+      director.stand(who, 10);
+    }
+    director.later(-0.3, [this, &director] { come_together(director); });
   }
 
   void idle(Director& director, std::size_t who) override {
@@ -51,10 +61,10 @@ class TwoTargets final : public Scenario {
     const Vector2d from = director.walker(0).position - meeting.center_m;
     meeting.angle_rad = std::atan2(from.y(), from.x());
     meeting.circle_rad = random.uniform(-0.9, 0.9);
-    meeting.phases = {{Phase::Kind::kHandshake, random.uniform(5.0, 7.0)},
-                      {Phase::Kind::kTalk, random.uniform(2.5, 4.0)},
-                      {Phase::Kind::kHandshake, random.uniform(3.0, 5.0)},
-                      {Phase::Kind::kTalk, random.uniform(1.5, 2.5)}};
+    meeting.phases = {{Phase::Kind::kHandshake, random.uniform(4.5, 6.0)},
+                      {Phase::Kind::kTalk, random.uniform(2.5, 3.5)},
+                      {Phase::Kind::kHandshake, random.uniform(2.5, 4.0)},
+                      {Phase::Kind::kTalk, random.uniform(1.2, 2.0)}};
     apart_ = 3;
     director.meet(std::move(meeting));
   }
@@ -72,10 +82,11 @@ class Twins final : public Scenario {
     for (std::size_t pair = 0; pair < 2; ++pair) {
       const double side = pair == 0 ? -1.0 : 1.0;
       Pair& two = pairs_[pair];
-      two.center =
-          floor.center() + Vector2d(side * 0.24 * floor.size().x(),
-                                    director.random().uniform(-0.12, 0.0) * floor.size().y());
-      const double angle = director.random().uniform(0.25, 0.75) * std::numbers::pi;
+      const Vector2d along = longer_axis(floor);
+      two.center = floor.center() + side * 0.24 * floor.size().maxCoeff() * along +
+                   director.random().uniform(-0.3, 0.3) * Vector2d(-along.y(), along.x());
+      const double angle = std::atan2(along.y(), along.x()) +
+                           director.random().uniform(0.25, 0.75) * std::numbers::pi;
       const Vector2d offset = 1.25 * Vector2d(std::cos(angle), std::sin(angle));
       two.homes = {director.free_near(two.center - offset),
                    director.free_near(two.center + offset)};
@@ -86,8 +97,8 @@ class Twins final : public Scenario {
       }
       // alike in all that can be seen from the ceiling
       director.member(2 * pair + 1) = director.member(2 * pair);
-      director.stand(2 * pair, 0.3 + 0.6 * static_cast<double>(pair));
-      director.stand(2 * pair + 1, 0.3 + 0.6 * static_cast<double>(pair));
+      director.stand(2 * pair, 2.1 + 0.6 * static_cast<double>(pair));
+      director.stand(2 * pair + 1, 2.1 + 0.6 * static_cast<double>(pair));
     }
   }
 

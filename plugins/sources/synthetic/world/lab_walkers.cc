@@ -47,8 +47,8 @@ class Boxmotion final : public Scenario {
     const double choice = random.unit();
     const double hand = random.chance(0.5) ? 1.0 : -1.0;
     Facing facing;
-    double speed = random.uniform(1.2, 1.55);
-    if (choice < 0.40) {
+    double speed = random.uniform(1.3, 1.6);
+    if (choice < 0.45) {
       // as one walks
     } else if (choice < 0.55) {
       facing.mode = Facing::Mode::kFixed;

@@ -57,7 +57,7 @@ class Passage : public Scenario {
  private:
   void arrive(Director& director) {
     Random& random = director.random();
-    if (director.count_present() < habits_.most) {
+    if (director.count_claiming() < habits_.most) {
       const std::size_t who = director.engage(ClothingStyle::kAny);
       runs_.push_back(random.chance(habits_.runners));
       director.enter(who, random.index(director.stage().doors.size()),

@@ -181,7 +181,7 @@ TEST_P(EveryScenario, PositionIsThePelvisAndHeadingTheChest) {
       EXPECT_LT(std::abs(angle_difference(std::atan2(facing.y(), facing.x()), s.heading_rad)),
                 1e-9);
       const double upright = s.pose[Segment::kHead].translation().z();
-      EXPECT_GT(upright, 0.8 * world.cast()[s.person].proportions.stature_m);
+      EXPECT_GT(upright, 0.78 * world.cast()[s.person].proportions.stature_m);
     }
   }
 }

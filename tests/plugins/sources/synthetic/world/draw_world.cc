@@ -147,7 +147,7 @@ int draw(int argc, char** argv) {
   }
   for (const ScenarioInfo& info : World::scenarios()) {
     if (info.name == options.scenario) {
-      options.stage = info.indoor ? indoor_stage({{-3, -2}, {3, 2}})
+      options.stage = info.indoor ? indoor_stage({{-2, -3}, {2, 3}})
                                   : outdoor_stage({{-0.5, -1.5}, {7.0, 9.5}});
     }
   }

@@ -17,7 +17,7 @@ inline Stage stage_of(const std::string& scenario) {
       return outdoor_stage({{-0.5, -1.5}, {7.0, 9.5}});
     }
   }
-  return indoor_stage({{-3, -2}, {3, 2}});
+  return indoor_stage({{-2, -3}, {2, 3}});
 }
 
 inline WorldOptions options_of(const std::string& scenario, std::uint64_t seed,
