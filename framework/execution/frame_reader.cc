@@ -111,6 +111,16 @@ bool FrameReader::read_clock(FrameState& state) {
   return true;
 }
 
+void FrameReader::read_background(std::int64_t index, FrameState& state) const {
+  state.reset(index, scene_.time_of_frame(index), plan_.slot_count, plan_.nodes.size());
+  const PlannedNode& clock = plan_.nodes[plan_.clock];
+  state.failed_node = plan_.clock;
+  guarded(clock.name, std::nullopt, [&] {
+    state.slots[static_cast<std::size_t>(plan_.frames_slot)] = clock.source->background(index);
+  });
+  state.failed_node.reset();
+}
+
 bool FrameReader::read(FrameState& state) {
   if (!read_clock(state)) return false;
   for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {

@@ -25,6 +25,7 @@ class FrameReader {
   /// As the clock announces it, for progress and early checks; nothing: known at the end.
   std::optional<std::int64_t> frame_count() const { return info_.frame_count; }
   bool rereadable() const { return info_.rereadable; }
+  std::int64_t background_count() const { return info_.background_count; }
   /// From now on, what a live source gives is kept below `folder`; nothing to do for others.
   void keep(const std::filesystem::path& folder);
 
@@ -35,6 +36,8 @@ class FrameReader {
   bool read(FrameState& state);
   /// The same of the clock alone.
   bool read_clock(FrameState& state);
+  /// One of the clock's images of the empty place into a fresh state; what is read next stays.
+  void read_background(std::int64_t index, FrameState& state) const;
 
  private:
   bool read_live(const PlannedNode& clock, FrameState& state);

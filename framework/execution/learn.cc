@@ -34,8 +34,9 @@ class Pass {
   }
   std::int64_t end() const { return end_; }
 
-  /// Moves on to the next frame that anybody wants and reads it.
+  /// Moves on to the next frame that anybody wants and reads it, backgrounds first.
   bool read(FrameState& state) {
+    if (read_background(state)) return true;
     const std::optional<std::int64_t> known_end = reader_.frame_count();
     for (std::int64_t frame = next_; frame < end_; ++frame) {
       if (stop_requested()) return false;
@@ -65,6 +66,23 @@ class Pass {
   }
 
  private:
+  bool read_background(FrameState& state) {
+    while (next_background_ < reader_.background_count()) {
+      if (stop_requested()) return false;
+      const std::int64_t index = next_background_++;
+      std::vector<bool> wanted(pupils_.size(), false);
+      for (std::size_t p = 0; p < pupils_.size(); ++p) {
+        Pupil& pupil = pupils_[p];
+        if (pupil.plan.people_free_only) wanted[p] = pupil.matched++ % pupil.plan.every == 0;
+      }
+      if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
+      reader_.read_background(index, state);
+      state.wanted = std::move(wanted);
+      return true;
+    }
+    return false;
+  }
+
   /// Makes `frame` the next one to be read; false where the source has ended before it. Where it
   /// announced its end nothing may be sought, so the frame before is read once more.
   bool reach(std::int64_t frame, std::optional<std::int64_t> known_end, FrameState& state) {
@@ -97,6 +115,7 @@ class Pass {
   const ExecutionPlan& plan_;
   FrameReader& reader_;
   std::int64_t next_ = 0;
+  std::int64_t next_background_ = 0;
   std::int64_t end_ = 0;
 };
 

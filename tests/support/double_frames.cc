@@ -24,6 +24,7 @@ class TestSource : public Source {
     bool live = false;
     bool announce = true;
     std::int64_t people_free = 0;
+    std::int64_t backgrounds = 0;
     std::string content;
     std::int64_t delay_us = 0;
   };
@@ -34,6 +35,7 @@ class TestSource : public Source {
     p.value("live", &Options::live).meaning("can be read only once");
     p.value("announce", &Options::announce).meaning("says how many before the end");
     p.value("people_free", &Options::people_free).meaning("first frames that show nobody");
+    p.value("backgrounds", &Options::backgrounds).meaning("images of the empty place");
     p.value("content", &Options::content).meaning("stands for the files that it reads");
     p.value("delay_us", &Options::delay_us).unit("us").meaning("time that a frame takes");
     return Declaration<Options>("test-source", "Gives small made-up images.")
@@ -55,7 +57,18 @@ class TestSource : public Source {
     fail_if(options_, "open");
     SourceInfo info{.frame_count = {}, .rereadable = !options_.live};
     if (options_.announce) info.frame_count = options_.frames;
+    info.background_count = options_.backgrounds;
     return info;
+  }
+  std::shared_ptr<const FrameSet> do_background(std::int64_t index) override {
+    fail_if(options_, "background", index);
+    auto frames = std::make_shared<FrameSet>();
+    frames->frame = index;
+    frames->time_ns = scene_->time_of_frame(index);
+    for (const Camera& camera : scene_->cameras) {
+      frames->views.emplace_back(camera.height(), camera.width(), CV_8UC3, cv::Scalar::all(7));
+    }
+    return frames;
   }
   void do_seek(std::int64_t frame) override {
     fail_if(options_, "seek", frame);

@@ -28,6 +28,7 @@ class SourceCheck {
                         "a follower must not end");
     }
     if (all.empty()) return;
+    backgrounds(*source, info.background_count);
     if (info.rereadable) {
       seeking(*source, all);
       if (clock) {
@@ -42,7 +43,12 @@ class SourceCheck {
       compare(read_from(*source, 0), all, "opening again does not start again at frame 0");
     }
     const auto second = stage_.make_as<Source>();
-    second->open(stage_.trial().role);
+    const SourceInfo again = second->open(stage_.trial().role);
+    if (info.background_count > 0 && again.background_count == info.background_count) {
+      const std::int64_t last = info.background_count - 1;
+      findings_.require(digest(*second->background(last)) == digest(*source->background(last)),
+                        "a second source with the same parameters gives other backgrounds");
+    }
     compare(read_from(*second, 0), all,
             "a second source with the same parameters gives other payloads");
     findings_.require(second->content_key() == stage_.make_as<Source>()->content_key(),
@@ -83,19 +89,7 @@ class SourceCheck {
     if (const auto* frames = dynamic_cast<const FrameSet*>(payload.get())) {
       findings_.require(stage_.trial().role == SourceRole::kClock,
                         "a follower must not give Frames");
-      findings_.require(frames->frame == frame,
-                        "FrameSet::frame is not the frame that was asked for");
-      findings_.require(frames->time_ns == stage_.scene().time_of_frame(frame),
-                        "FrameSet::time_ns is not the scene's time of the frame");
-      findings_.require(frames->views.size() == cameras, "a FrameSet needs one view per camera");
-      for (std::size_t c = 0; c < std::min(cameras, frames->views.size()); ++c) {
-        const cv::Mat& view = frames->views[c];
-        if (view.empty()) continue;
-        const Camera& camera = stage_.scene().cameras[c];
-        findings_.require(view.type() == CV_8UC3, "images must be 8-bit BGR");
-        findings_.require(view.cols == camera.width() && view.rows == camera.height(),
-                          "an image has another size than its camera");
-      }
+      check_frames(*frames, frame);
     }
     if (const auto* detections = dynamic_cast<const Detections*>(payload.get())) {
       findings_.require(detections->views.size() == cameras, "Detections need one list per camera");
@@ -117,6 +111,34 @@ class SourceCheck {
         }
       }
     }
+  }
+
+  void check_frames(const FrameSet& frames, std::int64_t frame) {
+    const std::size_t cameras = stage_.scene().cameras.size();
+    findings_.require(frames.frame == frame, "FrameSet::frame is not the frame that was asked for");
+    findings_.require(frames.time_ns == stage_.scene().time_of_frame(frame),
+                      "FrameSet::time_ns is not the scene's time of the frame");
+    findings_.require(frames.views.size() == cameras, "a FrameSet needs one view per camera");
+    for (std::size_t c = 0; c < std::min(cameras, frames.views.size()); ++c) {
+      const cv::Mat& view = frames.views[c];
+      if (view.empty()) continue;
+      const Camera& camera = stage_.scene().cameras[c];
+      findings_.require(view.type() == CV_8UC3, "images must be 8-bit BGR");
+      findings_.require(view.cols == camera.width() && view.rows == camera.height(),
+                        "an image has another size than its camera");
+    }
+  }
+
+  /// What is learned from before the run; `source` may be anywhere in its frames.
+  void backgrounds(Source& source, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) {
+      findings_.step("background()", [&] { check_frames(*source.background(i), i); });
+    }
+    findings_.must_throw<std::out_of_range>("background() beyond those announced",
+                                            "std::out_of_range", [&] { source.background(count); });
+    if (count == 0) return;
+    findings_.require(digest(*source.background(0)) == digest(*source.background(0)),
+                      "a background is not the same when it is asked for again");
   }
 
   void end_is_the_end(Source& source, std::int64_t end) {

@@ -63,6 +63,8 @@ Source::~Source() = default;
 SourceInfo Source::open(SourceRole role) {
   role_ = role;
   SourceInfo info = do_open();
+  if (info.background_count < 0) throw InternalError("announces a negative number of backgrounds");
+  background_count_ = info.background_count;
   open_ = true;
   next_ = 0;
   return info;
@@ -82,6 +84,17 @@ bool Source::read(NodeIo& io) {
   return true;
 }
 bool Source::do_people_free(std::int64_t /*frame*/) const { return false; }
+std::shared_ptr<const FrameSet> Source::background(std::int64_t index) {
+  if (!open_) throw InternalError("background before open");
+  if (index < 0 || index >= background_count_) {
+    throw std::out_of_range("background " + std::to_string(index) + " of " +
+                            std::to_string(background_count_));
+  }
+  auto frames = do_background(index);
+  if (!frames) throw InternalError("announced a background that it does not give");
+  return frames;
+}
+std::shared_ptr<const FrameSet> Source::do_background(std::int64_t /*index*/) { return nullptr; }
 std::string Source::do_content_key() const { return {}; }
 std::vector<std::string> Source::do_notes() const { return {}; }
 void Source::do_process(NodeIo& /*io*/) { throw InternalError("sources are read, not processed"); }

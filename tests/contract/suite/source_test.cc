@@ -26,7 +26,22 @@ class Clip final : public Source {
       return {{.where = {}, .pointer = "/fault", .message = "film is missing"}};
     return {};
   }
-  SourceInfo do_open() override { return {10, true}; }
+  SourceInfo do_open() override {
+    return {.frame_count = 10, .rereadable = true, .background_count = 3};
+  }
+  std::shared_ptr<const FrameSet> do_background(std::int64_t index) override {
+    if (fault_ == "background-none") return nullptr;
+    auto frames = std::make_shared<FrameSet>();
+    frames->frame = index + (fault_ == "background-frame" ? 1 : 0);
+    frames->time_ns = scene_->time_of_frame(index);
+    const double grey = 20 + (fault_ == "background-random" ? ++calls_ % 100 : 0);
+    for (const Camera& camera : scene_->cameras) {
+      frames->views.emplace_back(camera.height(), camera.width(), CV_8UC3, cv::Scalar::all(grey));
+    }
+    if (fault_ == "background-views") frames->views.pop_back();
+    if (fault_ == "background-moves") shift_ = 1;
+    return frames;
+  }
   void do_seek(std::int64_t frame) override {
     if (frame > 10 && fault_ != "seek-beyond") throw UserError("the clip has 10 frames");
     if (frame > 0 && fault_ == "seek-shift") shift_ = 1;
@@ -85,6 +100,11 @@ TEST(SourceContractTest, EachBrokenPromiseIsCaught) {
       {"size", "an image has another size than its camera"},
       {"views", "a FrameSet needs one view per camera"},
       {"random", "reading a second time gives other payloads"},
+      {"background-none", "announced a background that it does not give"},
+      {"background-frame", "FrameSet::frame is not the frame that was asked for"},
+      {"background-views", "a FrameSet needs one view per camera"},
+      {"background-random", "a background is not the same when it is asked for again"},
+      {"background-moves", "reading a second time gives other payloads"},
       {"type", "output 0 is declared as Frames but is Observations"},
   });
 }

@@ -71,6 +71,25 @@ TEST_F(LearningTest, SeesTheFramesItAskedFor) {
   EXPECT_EQ(learned("nothing"), "1,0.0000,0.0000,,1.000000");
 }
 
+TEST_F(LearningTest, BackgroundsAreForThoseWhoLearnWithoutPeople) {
+  run(nodes({{"people_free", true}}, {{"backgrounds", 5}}), "backgrounds");
+  EXPECT_EQ(learned("backgrounds"), "1,10.0000,5.0000,,1.000000");  // 0 to 4
+  run(nodes({{"people_free", true}, {"every", 3}}, {{"backgrounds", 5}, {"people_free", 2}}),
+      "and");
+  EXPECT_EQ(learned("and"), "1,4.0000,3.0000,,1.000000");  // 0 and 3, then 1 of the frames
+  run(nodes({{"people_free", true}, {"first", 1}}, {{"backgrounds", 4}}), "first");
+  EXPECT_EQ(learned("first"), "1,6.0000,4.0000,,1.000000") << "\"first\" counts frames";
+  run(nodes({{"first", 10}}, {{"backgrounds", 5}}), "others");
+  EXPECT_EQ(learned("others"), "1,45.0000,10.0000,,1.000000") << "not for the others";
+  EXPECT_EQ(summary("others")["frames"], 40) << "nor for the run";
+}
+
+TEST_F(LearningTest, AFaultInABackgroundNamesTheSource) {
+  const auto error = fault_of<UserError>(nodes(
+      {{"people_free", true}}, {{"backgrounds", 2}, {"fail_in", "background"}, {"fail_at", 1}}));
+  EXPECT_EQ(error.context().component, "cameras");
+}
+
 TEST_F(LearningTest, AllLearnersShareOnePass) {
   json three = nodes({{"first", 10}});
   three.push_back({{"use", "test-learner"}, {"name", "second"}, {"first", 20}});

@@ -13,8 +13,10 @@ namespace plaza {
 /// Which frames a node wants to see before the stream starts. All learners share one pass over the
 /// source.
 struct LearningPlan {
-  bool people_free_only = false;      ///< only frames that the source marks as people-free
-  std::optional<std::int64_t> first;  ///< only frames [0, first)
+  /// Only frames that the source marks as people-free, after its backgrounds (Source::background),
+  /// which nobody else sees.
+  bool people_free_only = false;
+  std::optional<std::int64_t> first;  ///< only frames [0, first); backgrounds are not among them
   std::int64_t every = 1;             ///< every n-th of them; >= 1
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "plaza/component/node.h"
+#include "plaza/data/frames.h"
 
 namespace plaza {
 
@@ -14,6 +16,8 @@ struct SourceInfo {
   /// end. A video's header may be wrong by a few: only read() says where the end is.
   std::optional<std::int64_t> frame_count;
   bool rereadable = true;  ///< false: a live source, seek() works only once, to 0
+  /// How many images of the empty place the source has besides its frames; see background().
+  std::int64_t background_count = 0;
 };
 
 /// What a source is in its pipeline.
@@ -45,13 +49,21 @@ class PLAZA_API Source : public Node {
   virtual SourceInfo do_open() = 0;
   virtual void do_seek(std::int64_t frame) = 0;
   virtual bool do_read(NodeIo& io) = 0;
-  /// True when the given frame is known to show no people (synthetic worlds, recorded backgrounds).
+  /// True when the given frame is known to show no people.
   virtual bool do_people_free(std::int64_t frame) const;
+  virtual std::shared_ptr<const FrameSet> do_background(std::int64_t index);
   virtual std::string do_content_key() const;
   virtual std::vector<std::string> do_notes() const;  ///< none, unless a source has its own
 
  public:
   bool people_free(std::int64_t frame) const { return do_people_free(frame); }
+  /// The index-th of SourceInfo::background_count images of the place without people, taken at
+  /// another time than the frames (recorded before anybody came in, or rendered): for those who
+  /// learn from people-free frames, never part of a run. `frame` and `time_ns` of the set count
+  /// from the first of them. In any order, after open(); does not change what read() gives next.
+  /// Throws std::out_of_range for an index that was not announced, UserError when the data stop
+  /// half-way.
+  std::shared_ptr<const FrameSet> background(std::int64_t index);
   /// Text that changes when what the source reads from outside changes (its files with sizes and
   /// times of modification), for cache keys; parameters need not be in it. Works before open().
   std::string content_key() const { return do_content_key(); }
@@ -64,6 +76,7 @@ class PLAZA_API Source : public Node {
   SourceRole role_ = SourceRole::kClock;
   bool open_ = false;
   std::int64_t next_ = 0;
+  std::int64_t background_count_ = 0;
 };
 
 }  // namespace plaza
