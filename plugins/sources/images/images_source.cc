@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "plugins/sources/common/camera_files.h"
@@ -23,6 +24,11 @@ Declaration<ImagesSource::Options> ImagesSource::declare() {
       .meaning(
           "image files of each camera, by the camera's name in the scene, with {frame} (or "
           "printf's %06d) in place of the number: \"view1/{frame}.png\"");
+  p.value("people_free", &Options::people_free)
+      .meaning(
+          "image files of the place without people, likewise, for those who learn from "
+          "people-free frames; cameras may be left out; all numbers that there are count, whatever "
+          "\"first\" and \"step\"");
   p.value("missing_cameras", &Options::missing_cameras)
       .meaning("cameras of the scene that have no images; their view is empty in every frame");
   p.value("first", &Options::first)
@@ -72,11 +78,11 @@ ImagesSource::Numbering ImagesSource::number_frames(const std::vector<ImageSerie
   return {.first = first, .frames = frames};
 }
 
-std::string ImagesSource::first_image_fault(const Camera& camera, const ImageSeries& series) const {
-  const auto first = series.files.lower_bound(options_.first.value_or(0));
+std::string ImagesSource::first_image_fault(const Camera& camera, const ImageSeries& series,
+                                            std::int64_t from) const {
+  const auto first = series.files.lower_bound(from);
   if (first == series.files.end()) {
-    return "no image has the number " + std::to_string(options_.first.value_or(0)) +
-           " (\"first\") or a higher one";
+    return "no image has the number " + std::to_string(from) + " (\"first\") or a higher one";
   }
   const DecodedImage decoded = read_image(first->second);
   if (decoded.image.empty()) {
@@ -94,13 +100,21 @@ Diagnostics ImagesSource::do_check() const {
   Diagnostics faults =
       check_cameras(*scene_, "pattern", options_.pattern, options_.missing_cameras);
   std::vector<ImageSeries> series(scene_->cameras.size());
-  const Diagnostics of_entries =
-      check_entries(*scene_, "pattern", options_.pattern,
-                    [&](std::size_t c, const std::filesystem::path& pattern) {
-                      series[c] = list_images(pattern);
-                      return first_image_fault(scene_->cameras[c], series[c]);
-                    });
+  const Diagnostics of_entries = check_entries(
+      *scene_, "pattern", options_.pattern,
+      [&](std::size_t c, const std::filesystem::path& pattern) {
+        series[c] = list_images(pattern);
+        return first_image_fault(scene_->cameras[c], series[c], options_.first.value_or(0));
+      });
   faults.insert(faults.end(), of_entries.begin(), of_entries.end());
+  const Diagnostics unknown = check_known_cameras(*scene_, "people_free", options_.people_free);
+  faults.insert(faults.end(), unknown.begin(), unknown.end());
+  const Diagnostics of_people_free =
+      check_entries(*scene_, "people_free", options_.people_free,
+                    [&](std::size_t c, const std::filesystem::path& pattern) {
+                      return first_image_fault(scene_->cameras[c], list_images(pattern), 0);
+                    });
+  faults.insert(faults.end(), of_people_free.begin(), of_people_free.end());
   if (!faults.empty()) return faults;
   try {
     number_frames(series);
@@ -119,7 +133,19 @@ SourceInfo ImagesSource::do_open() {
         with_camera(scene_->cameras[c], std::nullopt, [&] { return list_images(pattern->second); });
   }
   numbering_ = number_frames(series_);
-  return {.frame_count = numbering_.frames};
+  people_free_.assign(scene_->cameras.size(), {});
+  std::set<std::int64_t> numbers;
+  for (std::size_t c = 0; c < scene_->cameras.size(); ++c) {
+    const auto pattern = options_.people_free.find(scene_->cameras[c].name());
+    if (pattern == options_.people_free.end()) continue;
+    people_free_[c] =
+        with_camera(scene_->cameras[c], std::nullopt, [&] { return list_images(pattern->second); });
+    for (const auto& [number, file] : people_free_[c].files) numbers.insert(number);
+  }
+  people_free_numbers_.assign(numbers.begin(), numbers.end());
+  return {.frame_count = numbering_.frames,
+          .rereadable = true,
+          .background_count = std::ssize(people_free_numbers_)};
 }
 
 void ImagesSource::do_seek(std::int64_t frame) {
@@ -128,25 +154,45 @@ void ImagesSource::do_seek(std::int64_t frame) {
                   std::to_string(numbering_.frames) + " frames");
 }
 
-cv::Mat ImagesSource::read_view(std::size_t camera, std::int64_t frame) const {
-  const auto file = series_[camera].files.find(numbering_.first + frame * options_.step);
-  if (file == series_[camera].files.end()) return {};
-  DecodedImage decoded = read_image(file->second);
-  const std::string in_frame = "frame " + std::to_string(frame + 1) + ": ";
+cv::Mat ImagesSource::read_file(std::size_t camera, const std::filesystem::path& file,
+                                const std::string& what) const {
+  DecodedImage decoded = read_image(file);
   if (decoded.image.empty()) {
-    if (!decoded.damaged) throw UserError(in_frame + decoded.fault);
+    if (!decoded.damaged) throw UserError(what + decoded.fault);
     if (options_.damaged == Damaged::kMissing) return {};
-    throw UserError(in_frame + decoded.fault +
+    throw UserError(what + decoded.fault +
                     "; copy it again, delete it to run without this view in this frame, or set "
                     "\"damaged\": \"missing\" to do so with all damaged files");
   }
   if (const std::string fault =
           size_fault(scene_->cameras[camera], decoded.image.cols, decoded.image.rows);
       !fault.empty()) {
-    throw UserError(in_frame + file->second.string() + fault +
+    throw UserError(what + file.string() + fault +
                     "; replace it, or delete it to run without this view in this frame");
   }
   return decoded.image;
+}
+
+cv::Mat ImagesSource::read_view(std::size_t camera, std::int64_t frame) const {
+  const auto file = series_[camera].files.find(numbering_.first + frame * options_.step);
+  if (file == series_[camera].files.end()) return {};
+  return read_file(camera, file->second, "frame " + std::to_string(frame + 1) + ": ");
+}
+
+std::shared_ptr<const FrameSet> ImagesSource::do_background(std::int64_t index) {
+  const std::int64_t number = people_free_numbers_.at(static_cast<std::size_t>(index));
+  auto frames = std::make_shared<FrameSet>();
+  frames->frame = index;
+  frames->time_ns = scene_->time_of_frame(index);
+  frames->views.resize(scene_->cameras.size());
+  for (std::size_t c = 0; c < frames->views.size(); ++c) {
+    const auto file = people_free_[c].files.find(number);
+    if (file == people_free_[c].files.end()) continue;
+    frames->views[c] = with_camera(scene_->cameras[c], std::nullopt, [&] {
+      return read_file(c, file->second, "people-free image: ");
+    });
+  }
+  return frames;
 }
 
 bool ImagesSource::do_read(NodeIo& io) {
@@ -157,14 +203,17 @@ bool ImagesSource::do_read(NodeIo& io) {
 
 std::string ImagesSource::do_content_key() const {
   std::string key;
-  for (const auto& [camera, pattern] : options_.pattern) {
-    try {
-      for (const auto& [number, file] : list_images(pattern).files) {
-        key += camera + " " + file_stamp(file) + "\n";
+  for (const auto* patterns : {&options_.pattern, &options_.people_free}) {
+    for (const auto& [camera, pattern] : *patterns) {
+      try {
+        for (const auto& [number, file] : list_images(pattern).files) {
+          key += camera + " " + file_stamp(file) + "\n";
+        }
+      } catch (const UserError& error) {
+        key += camera + " " + error.what() + "\n";  // check() and open() report it
       }
-    } catch (const UserError& error) {
-      key += camera + " " + error.what() + "\n";  // check() and open() report it
     }
+    key += "\n";
   }
   return key;
 }

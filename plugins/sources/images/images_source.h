@@ -22,6 +22,7 @@ class ImagesSource final : public Source {
 
   struct Options {
     std::map<std::string, std::filesystem::path> pattern;
+    std::map<std::string, std::filesystem::path> people_free;
     std::vector<std::string> missing_cameras;
     std::optional<std::int64_t> first;
     std::int64_t step = 1;
@@ -36,6 +37,7 @@ class ImagesSource final : public Source {
   SourceInfo do_open() override;
   void do_seek(std::int64_t frame) override;
   bool do_read(NodeIo& io) override;
+  std::shared_ptr<const FrameSet> do_background(std::int64_t index) override;
   std::string do_content_key() const override;
 
  private:
@@ -45,12 +47,19 @@ class ImagesSource final : public Source {
     std::int64_t frames = 0;
   };
   Numbering number_frames(const std::vector<ImageSeries>& series) const;
-  std::string first_image_fault(const Camera& camera, const ImageSeries& series) const;
+  /// What is wrong with the first image from number `from` on, or nothing.
+  std::string first_image_fault(const Camera& camera, const ImageSeries& series,
+                                std::int64_t from) const;
   cv::Mat read_view(std::size_t camera, std::int64_t frame) const;
+  /// Reads one file of a camera; empty when it is damaged and may be. `what` begins messages.
+  cv::Mat read_file(std::size_t camera, const std::filesystem::path& file,
+                    const std::string& what) const;
 
   Options options_;
   std::shared_ptr<const Scene> scene_;
-  std::vector<ImageSeries> series_;  // by camera of the scene; empty where it has no pattern
+  std::vector<ImageSeries> series_;       // by camera of the scene; empty where it has no pattern
+  std::vector<ImageSeries> people_free_;  // likewise
+  std::vector<std::int64_t> people_free_numbers_;  // that any camera has, rising
   Numbering numbering_;
 };
 

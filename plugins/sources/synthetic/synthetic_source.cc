@@ -1,10 +1,16 @@
 #include "plugins/sources/synthetic/synthetic_source.h"
 
+#include <cmath>
 #include <utility>
 
 #include "plaza/core/error.h"
 
 namespace plaza::synthetic {
+namespace {
+
+constexpr double kBackgroundMinute = 60;  // seconds
+
+}  // namespace
 
 Declaration<SyntheticSource::Options> SyntheticSource::declare() {
   Parameters<Options> p;
@@ -17,6 +23,12 @@ Declaration<SyntheticSource::Options> SyntheticSource::declare() {
       .at_least(0)
       .meaning("decides everything that is drawn by chance: people, ways, place, light, noise");
   p.value("frames", &Options::frames).at_least(1).meaning("length of the clip");
+  p.value("backgrounds", &Options::backgrounds)
+      .at_least(0)
+      .meaning(
+          "images of the place without people, taken in the minute before the clip, for those who "
+          "learn from people-free frames")
+      .source("thesis 4.3.2");
   p.value("people", &Options::people)
       .at_least(2)
       .at_most(10)
@@ -123,7 +135,22 @@ Diagnostics SyntheticSource::do_check() const {
   return {};
 }
 
-SourceInfo SyntheticSource::do_open() { return {.frame_count = options_.frames}; }
+SourceInfo SyntheticSource::do_open() {
+  return {.frame_count = options_.frames,
+          .rereadable = true,
+          .background_count = role() == SourceRole::kClock ? options_.backgrounds : 0};
+}
+
+std::shared_ptr<const FrameSet> SyntheticSource::do_background(std::int64_t index) {
+  auto frames = std::make_shared<FrameSet>();
+  frames->frame = index;
+  frames->time_ns = scene_->time_of_frame(index);
+  // evenly over a minute that ends one second before the clip
+  const double step_s = kBackgroundMinute / static_cast<double>(options_.backgrounds);
+  const double before_s = 1 + step_s * static_cast<double>(options_.backgrounds - index);
+  frames->views = laboratory().empty_images(-std::llround(before_s * scene_->frame_rate_hz));
+  return frames;
+}
 
 void SyntheticSource::do_seek(std::int64_t frame) {
   if (role() == SourceRole::kFollower || frame < options_.frames) return;

@@ -18,6 +18,7 @@ class SyntheticSource final : public Source {
     std::string scenario = "four-crossing";
     std::int64_t seed = 1;
     std::int64_t frames = 500;
+    std::int64_t backgrounds = 40;
     std::optional<int> people;
     int samples = 4;
     bool shadows = true;
@@ -41,6 +42,7 @@ class SyntheticSource final : public Source {
   SourceInfo do_open() override;
   void do_seek(std::int64_t frame) override;
   bool do_read(NodeIo& io) override;
+  std::shared_ptr<const FrameSet> do_background(std::int64_t index) override;
 
  private:
   LaboratoryOptions laboratory_options() const;
