@@ -25,6 +25,7 @@ void add_plugins_command(CLI::App& app, CliContext& context);
 void add_eval_command(CLI::App& app, CliContext& context);
 void add_study_command(CLI::App& app, CliContext& context);
 void add_study_job_command(CLI::App& app, CliContext& context);
+void add_cache_command(CLI::App& app, CliContext& context);
 void add_help_command(CLI::App& app, CliContext& context);
 
 /// The option of all commands that read a pipeline: "--set POINTER=VALUE", once per value.

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/cache/cache_folder.h"
@@ -21,6 +22,7 @@ struct StudyArguments {
   std::string study;
   std::string out;
   std::string cache;
+  std::optional<double> cache_limit_gb;
   int jobs = 1;
   bool check = false;
   bool retry = false;
@@ -34,6 +36,7 @@ StudyOptions options_of(const StudyArguments& arguments, const CliContext& conte
   options.cache_folder =
       arguments.cache.empty() ? default_cache_folder() : std::filesystem::path(arguments.cache);
   options.jobs = arguments.jobs;
+  options.cache_limit_gb = arguments.cache_limit_gb;
   options.retry = arguments.retry;
   options.quiet = arguments.quiet;
   options.program = {own_program().string()};
@@ -61,7 +64,7 @@ void study(const StudyArguments& arguments, CliContext& context) {
   const auto end = run_study(arguments.study, options, context.registry());
   if (!arguments.quiet) {
     std::cout << report_text(end->results) << "See " << options.out.string()
-              << ": report.md, results.csv, times.csv, jobs/\n";
+              << ": report.html, report.md, results.csv, times.csv, jobs/\n";
   }
   if (stop_requested()) {
     std::cerr << "plaza: interrupted; the same command goes on where this one ended\n";
@@ -92,6 +95,11 @@ void add_study_command(CLI::App& app, CliContext& context) {
                    "Where results of nodes and learned models are kept; default: "
                    "$XDG_CACHE_HOME/plaza or ~/.cache/plaza")
       ->type_name("DIR");
+  command
+      ->add_option("--cache-limit", arguments->cache_limit_gb,
+                   "How large the cache may grow; default: 20 GB, or half of the free disk")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("GB");
   command->add_flag("--check", arguments->check, "Check all variants; compute nothing");
   command->add_flag("--retry", arguments->retry, "Run again what failed");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but errors");

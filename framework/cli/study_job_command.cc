@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/cache/cache_folder.h"
@@ -14,6 +15,7 @@ namespace {
 struct JobArguments {
   std::string folder;
   std::string cache;
+  std::optional<double> cache_limit_gb;
   int threads = 1;
 };
 
@@ -23,6 +25,11 @@ void run_job(const JobArguments& arguments, CliContext& context) {
   options.folder = arguments.folder;
   options.cache_folder =
       arguments.cache.empty() ? default_cache_folder() : std::filesystem::path(arguments.cache);
+  constexpr double kBytesPerGb = 1e9;
+  if (arguments.cache_limit_gb) {
+    options.cache_limit_bytes =
+        static_cast<std::uintmax_t>(*arguments.cache_limit_gb * kBytesPerGb);
+  }
   options.threads = arguments.threads;
   if (!run_study_job(options, context.registry())) context.exit_status = interrupt.exit_status();
 }
@@ -37,6 +44,7 @@ void add_study_job_command(CLI::App& app, CliContext& context) {
   command->add_option("FOLDER", arguments->folder, "The job's folder, DIR/jobs/ID of a study")
       ->required();
   command->add_option("--cache-dir", arguments->cache)->type_name("DIR");
+  command->add_option("--cache-limit", arguments->cache_limit_gb)->type_name("GB");
   command->add_option("--threads", arguments->threads)->check(CLI::Range(1, 1024))->type_name("N");
   command->callback([arguments, &context] { run_job(*arguments, context); });
 }

@@ -1,6 +1,7 @@
 #include "framework/execution/frame_reader.h"
 
 #include <chrono>
+#include <utility>
 
 #include "framework/execution/guard.h"
 #include "plaza/data/frames.h"
@@ -14,10 +15,15 @@ std::size_t index_of(const ExecutionPlan& plan, const PlannedNode& node) {
 
 }  // namespace
 
-void FrameReader::open() {
+void FrameReader::replay_clock(std::int64_t end, std::function<void(FrameState&)> fill) {
+  info_ = {.frame_count = end, .rereadable = true};
+  fill_ = std::move(fill);
+}
+
+void FrameReader::open(bool with_clock) {
   for (const PlannedNode& node : plan_.nodes) {
-    if (node.source == nullptr || !node.works) continue;
     const bool clock = index_of(plan_, node) == plan_.clock;
+    if (node.source == nullptr || !(node.works || (clock && with_clock))) continue;
     const SourceInfo info = guarded(node.name, std::nullopt, [&] {
       return node.source->open(clock ? SourceRole::kClock : SourceRole::kFollower);
     });
@@ -35,7 +41,9 @@ void FrameReader::keep(const std::filesystem::path& folder) {
 void FrameReader::seek(std::int64_t frame) {
   for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
     const PlannedNode& node = plan_.nodes[i];
-    if (node.source == nullptr || !node.works) continue;
+    // a clock that does not work has been opened for learners alone, unless it is replaced
+    const bool works = i == plan_.clock ? !fill_ : node.works;
+    if (node.source == nullptr || !works) continue;
     if (i == plan_.clock && !info_.rereadable) continue;
     guarded(node.name, frame, [&] { node.source->seek(frame); });
   }
@@ -101,6 +109,12 @@ bool FrameReader::read_live(const PlannedNode& clock, FrameState& state) {
 bool FrameReader::read_clock(FrameState& state) {
   state.reset(next_, scene_.time_of_frame(next_), plan_.slot_count, plan_.nodes.size());
   const PlannedNode& clock = plan_.nodes[plan_.clock];
+  if (fill_) {
+    if (next_ >= info_.frame_count) return false;
+    fill_(state);
+    ++next_;
+    return true;
+  }
   if (!(info_.rereadable ? read_source(clock, state) : read_live(clock, state))) return false;
   if (plan_.frames_slot >= 0 && !state.slots[static_cast<std::size_t>(plan_.frames_slot)]) {
     guarded(clock.name, state.frame, [] {

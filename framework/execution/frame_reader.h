@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,8 +21,11 @@ class FrameReader {
   /// Both must outlive the reader.
   FrameReader(const ExecutionPlan& plan, const Scene& scene) : plan_(plan), scene_(scene) {}
 
-  /// Opens all sources.
-  void open();
+  /// Opens all sources that work, and the clock in any case where `with_clock` is set.
+  void open(bool with_clock = false);
+  /// From now on the clock is not read: `fill` puts in what it gave in an earlier run, and frames
+  /// end before `end`.
+  void replay_clock(std::int64_t end, std::function<void(FrameState&)> fill);
   /// As the clock announces it, for progress and early checks; nothing: known at the end.
   std::optional<std::int64_t> frame_count() const { return info_.frame_count; }
   bool rereadable() const { return info_.rereadable; }
@@ -46,6 +50,7 @@ class FrameReader {
   const ExecutionPlan& plan_;
   const Scene& scene_;
   SourceInfo info_;
+  std::function<void(FrameState&)> fill_;  ///< replaces the clock when set
   std::int64_t next_ = 0;
   // of a live source: how far it was read, its images, and what else it gave by frame
   std::int64_t live_next_ = 0;

@@ -8,7 +8,11 @@
 #include <opencv2/core/utility.hpp>
 #include <set>
 #include <system_error>
+#include <utility>
 
+#include "framework/cache/bytes.h"
+#include "framework/cache/node_cache.h"
+#include "framework/cache/stream_keys.h"
 #include "framework/execution/demand.h"
 #include "framework/execution/disk_reserve.h"
 #include "framework/execution/evaluate.h"
@@ -21,6 +25,7 @@
 #include "framework/execution/progress.h"
 #include "framework/execution/recorder.h"
 #include "framework/execution/render.h"
+#include "framework/execution/reuse.h"
 #include "framework/execution/stop.h"
 #include "framework/results/branches.h"
 #include "framework/results/summary.h"
@@ -48,13 +53,15 @@ class Run {
         options_(options),
         threads_(threads),
         cache_(options.cache_folder),
+        node_cache_(options.cache_folder,
+                    options.cache_limit_bytes.value_or(default_cache_limit(options.cache_folder))),
         progress_(options.progress) {}
 
   RunReport execute() {
     check();
     start_ = SteadyClock::now();
     open_output();
-    if (attempt([this] { learn(); }) && !stopped_) {
+    if (!stopped_ && attempt([this] { learn(); }) && !stopped_) {
       stream();
       flush();
       if (!ended()) render();
@@ -100,7 +107,7 @@ class Run {
     let_work();
     tasks_ = learning_tasks(plan_, pipeline_, *scene_);
     recall();
-    reader_.open();
+    reader_.open(!missing_.empty());
     if (const auto count = reader_.frame_count(); count && options_.first_frame >= *count) {
       throw UserError("--frames begins at " + std::to_string(options_.first_frame) + ", but '" +
                       plan_.nodes[plan_.clock].name + "' has only " + std::to_string(*count) +
@@ -110,11 +117,19 @@ class Run {
 
   /// Says who has to be called at all.
   void let_work() {
-    if (options_.draw) return;
-    const Demand demand =
-        demand_of(plan_, branches_, options_.draw, [](std::size_t, std::size_t) { return false; });
-    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
-      plan_.nodes[i].works = demand.works[i] || i == plan_.clock;
+    if (options_.reuse) {
+      const FrameRange frames{options_.first_frame, options_.end_frame};
+      LibraryIdentities libraries;
+      reuse_ = std::make_unique<Reuse>(node_cache_, options_.least_gain,
+                                       stream_keys(plan_, pipeline_, *scene_, frames, libraries),
+                                       frames);
+      stopped_ = !reuse_->begin(plan_, branches_, options_.draw);
+    } else if (!options_.draw) {
+      const Demand demand = demand_of(plan_, branches_, options_.draw,
+                                      [](std::size_t, std::size_t) { return false; });
+      for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
+        plan_.nodes[i].works = demand.works[i] || i == plan_.clock;
+      }
     }
   }
 
@@ -186,12 +201,20 @@ class Run {
 
   void stream() {
     end_frame_ = options_.first_frame;
+    if (reuse_ && reuse_->replay_end()) {
+      reader_.replay_clock(*reuse_->replay_end(),
+                           [this](FrameState& state) { reuse_->replay_node(plan_.clock, state); });
+    }
     if (!attempt([this] { reader_.seek(options_.first_frame); })) return;
     FrameLoop loop;
     loop.read = [this](FrameState& state) {
       if (options_.end_frame && reader_.next() >= *options_.end_frame) return false;
       return reader_.read(state);
     };
+    if (reuse_) {
+      loop.stages.push_back(
+          {.ordered = false, .work = [this](FrameState& s) { reuse_->replay(s, plan_.clock); }});
+    }
     for (const ExecutionPlan::Group& group : plan_.groups) {
       loop.stages.push_back(
           {.ordered = group.memory, .work = [this, &group](FrameState& s) { process(group, s); }});
@@ -235,13 +258,14 @@ class Run {
       if (plan_.nodes[i].works && !draws_[i])
         ++timings_[i].calls;  // those that draw are counted where they do
     }
+    if (reuse_) reuse_->record(state, timings_);
     for (RenderTask& task : renderers_) {
       if (task.ground_truth_slot < 0) continue;
       task.ground_truth.push_back(state.slots[static_cast<std::size_t>(task.ground_truth_slot)]);
     }
     if (plan_.frames_slot >= 0) {
-      missing_views_.add(
-          dynamic_cast<const FrameSet&>(*state.slots[static_cast<std::size_t>(plan_.frames_slot)]));
+      const PayloadPtr& frames = state.slots[static_cast<std::size_t>(plan_.frames_slot)];
+      if (frames) missing_views_.add(dynamic_cast<const FrameSet&>(*frames));
     }
     for (PayloadPtr& slot : state.slots) slot.reset();  // images go as soon as nobody needs them
     end_frame_ = state.frame + 1;
@@ -256,6 +280,7 @@ class Run {
     FrameState state;
     state.reset(end_frame_, scene_->time_of_frame(end_frame_), plan_.slot_count,
                 plan_.nodes.size());
+    if (reuse_ && !attempt([&] { reuse_->replay_flush(state); })) return;
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
       const PlannedNode& node = plan_.nodes[i];
       if (node.source != nullptr || i == failed_node_ || !node.works) continue;
@@ -270,6 +295,7 @@ class Run {
       timings_[i].seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
     }
     attempt([&] { recorder_->add_flushed(state); });
+    if (reuse_ && !ended()) reuse_->record_flush(state);
   }
 
   void render() {
@@ -320,11 +346,12 @@ class Run {
       const std::vector<Artifact> files = recorder_->write(end_frame_);
       report_.artifacts.insert(report_.artifacts.end(), files.begin(), files.end());
     });
-    for (const std::string& note : missing_views_.notes()) {
-      report_.notes.push_back("node '" + plan_.nodes[plan_.clock].name + "', " + note);
+    add_notes();
+    if (reuse_) {
+      report_.node_seconds = reuse_->node_seconds(timings_);
+    } else {
+      for (const NodeTiming& timing : timings_) report_.node_seconds += timing.seconds;
     }
-    for (const PlannedNode& node : plan_.nodes) add_notes(node);
-    for (const NodeTiming& timing : timings_) report_.node_seconds += timing.seconds;
     report_.complete = !ended();
     report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     if (fault_) {
@@ -338,9 +365,28 @@ class Run {
     });
   }
 
+  /// What whoever reads the results should know; of what was read from the cache, what was known
+  /// when it was computed.
+  void add_notes() {
+    std::vector<std::string> learning = std::exchange(report_.notes, {});
+    if (reuse_ && reuse_->replay_end()) {
+      report_.notes = reuse_->kept_notes();
+    } else {
+      for (const std::string& note : missing_views_.notes()) {
+        report_.notes.push_back("node '" + plan_.nodes[plan_.clock].name + "', " + note);
+      }
+      for (const PlannedNode& node : plan_.nodes) add_notes(node);
+    }
+    if (reuse_) {
+      if (!ended()) reuse_->commit(report_.frames, timings_, report_.notes);
+      learning.insert(learning.end(), reuse_->troubles().begin(), reuse_->troubles().end());
+    }
+    report_.notes.insert(report_.notes.begin(), learning.begin(), learning.end());
+  }
+
   /// What a source met that was no error.
   void add_notes(const PlannedNode& node) {
-    if (node.source == nullptr) return;
+    if (node.source == nullptr || !node.works) return;
     attempt([&] {
       const auto notes = guarded(node.name, std::nullopt, [&] { return node.source->notes(); });
       for (const std::string& note : notes) {
@@ -366,6 +412,8 @@ class Run {
   const RunOptions& options_;
   const int threads_;
   const ModelCache cache_;
+  const NodeCache node_cache_;
+  std::unique_ptr<Reuse> reuse_;
   DiskReserve reserve_;
   Progress progress_;
 
@@ -412,7 +460,16 @@ RunReport run_pipeline(const ResolvedPipeline& pipeline, std::shared_ptr<const S
   cv::setNumThreads(
       1);  // frames are the unit of concurrency; OpenCV's own threads would only fight
   tbb::task_arena arena(threads);
-  return arena.execute([&] { return Run(pipeline, std::move(scene), options, threads).execute(); });
+  return arena.execute([&] {
+    while (true) {
+      try {
+        return Run(pipeline, scene, options, threads).execute();
+      } catch (const DamagedEntry& damaged) {  // it goes, and is computed again
+        std::error_code ignored;
+        if (!std::filesystem::remove(damaged.file(), ignored)) throw;
+      }
+    }
+  });
 }
 
 }  // namespace plaza

@@ -23,6 +23,11 @@ struct RunOptions {
   std::filesystem::path cache_folder;  ///< of learned models
   int threads = 0;                     ///< 0: all cores; 1: sequential, the reference
   ProgressStyle progress = ProgressStyle::kTerminal;
+  /// What nodes give is read from the cache where it is there, and kept where that is worth it.
+  bool reuse = false;
+  /// Computing must take this many times as long as reading back; 0: everything is kept.
+  double least_gain = 2;
+  std::optional<std::uintmax_t> cache_limit_bytes;  ///< nothing: default_cache_limit()
   bool draw = true;  ///< false: sinks and renderers rest, and whatever works for them alone
 };
 

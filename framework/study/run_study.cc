@@ -105,6 +105,10 @@ class StudyRun {
     launch.program = options_.program;
     launch.job_options = {"--cache-dir", fs::absolute(options_.cache_folder).string(), "--threads",
                           std::to_string(threads)};
+    if (options_.cache_limit_gb) {
+      launch.job_options.insert(launch.job_options.end(),
+                                {"--cache-limit", std::to_string(*options_.cache_limit_gb)});
+    }
     launch.jobs = options_.jobs;
     launch.on_start = [&progress](const LaunchJob&) { progress.started(); };
     launch.on_end = [&](const LaunchEnd& end) {

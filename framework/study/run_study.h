@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace plaza {
 struct StudyOptions {
   std::filesystem::path out;
   std::filesystem::path cache_folder;
+  std::optional<double> cache_limit_gb;  ///< nothing: default_cache_limit()
   int jobs = 1;
   Launcher launcher = launch_local;
   std::vector<std::string> program;  ///< how this program is called, its own options included

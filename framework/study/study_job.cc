@@ -61,6 +61,8 @@ bool run_study_job(const JobOptions& options, const Registry& registry) {
   run.threads = options.threads;
   run.progress = ProgressStyle::kQuiet;
   run.draw = order.draw;
+  run.reuse = true;
+  run.cache_limit_bytes = options.cache_limit_bytes;
   JobResult result;
   try {
     const auto [pipeline, scene] =

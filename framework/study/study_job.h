@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "framework/config/frame_range.h"
@@ -24,6 +26,7 @@ void write_job_order(const std::filesystem::path& folder, const PreparedJob& job
 struct JobOptions {
   std::filesystem::path folder;        ///< the job's
   std::filesystem::path cache_folder;  ///< of learned models and nodes
+  std::optional<std::uintmax_t> cache_limit_bytes;
   int threads = 0;
 };
 

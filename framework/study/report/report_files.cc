@@ -4,15 +4,12 @@
 #include <sstream>
 
 #include "framework/study/report/csv.h"
+#include "framework/study/report/html.h"
 #include "framework/study/report/tables.h"
 #include "plaza/io/output_file.h"
 
 namespace plaza {
 namespace {
-
-constexpr const char* kDifferenceLegend =
-    "Mean of the differences of pairs that are equal in all else, with its 95 % bootstrap interval "
-    "(10000 resamplings) from three pairs on; \"better\" and \"worse\" where that leaves zero out.";
 
 std::string counts_text(const StudyResults& results) {
   const auto done = std::count_if(results.jobs.begin(), results.jobs.end(),
@@ -34,14 +31,15 @@ std::string report_markdown(const StudyResults& results) {
   for (const WordTable& table : tables) text << '\n' << to_markdown(table);
   const auto differences = difference_tables(results);
   if (!differences.empty()) {
-    text << "\n## Differences from " << baseline_text(study) << "\n\n" << kDifferenceLegend << '\n';
+    text << "\n## Differences from " << baseline_text(study) << "\n\n"
+         << difference_legend() << '\n';
   }
   for (const WordTable& table : differences) text << '\n' << to_markdown(table);
   const auto failures = failure_lines(results);
   if (!failures.empty()) text << "\n## Without result\n\n";
   for (const std::string& line : failures) text << "- " << line << '\n';
   text << "\nEvery figure of every run: `results.csv`; times, which no two runs share: "
-          "`times.csv`.\n";
+          "`times.csv`; plots: `report.html`.\n";
   return text.str();
 }
 
@@ -60,6 +58,7 @@ void write_reports(const std::filesystem::path& folder, const StudyResults& resu
   write_file(folder / "results.csv", results_csv(results));
   write_file(folder / "times.csv", times_csv(results));
   write_file(folder / "report.md", report_markdown(results));
+  write_file(folder / "report.html", report_html(results));
 }
 
 }  // namespace plaza

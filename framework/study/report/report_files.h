@@ -14,7 +14,7 @@ std::string report_markdown(const StudyResults& results);
 /// What a terminal shows at the end.
 std::string report_text(const StudyResults& results);
 
-/// Writes results.csv, times.csv and report.md into `folder`.
+/// Writes results.csv, times.csv, report.md and report.html into `folder`.
 void write_reports(const std::filesystem::path& folder, const StudyResults& results);
 
 }  // namespace plaza

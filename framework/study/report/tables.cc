@@ -121,6 +121,12 @@ std::string cell_legend(const StudyResults& results) {
          "some are missing.";
 }
 
+std::string difference_legend() {
+  return "Mean of the differences of pairs that are equal in all else, with its 95 % bootstrap "
+         "interval (10000 resamplings) from three pairs on; \"better\" and \"worse\" where that "
+         "leaves zero out.";
+}
+
 std::vector<WordTable> result_tables(const StudyResults& results) {
   const Study& study = results.prepared->study;
   const auto& variants = results.prepared->expansion.variants;

@@ -33,6 +33,9 @@ std::string to_text(const WordTable& table);
 /// For Markdown.
 std::string to_markdown(const WordTable& table);
 
+/// What the cells of difference tables are.
+std::string difference_legend();
+
 /// What the cells of result tables are: "median of 3 repetitions ± half the distance ...".
 std::string cell_legend(const StudyResults& results);
 

@@ -1,5 +1,5 @@
 // Every pipeline that comes with Plaza: the check passes, and any number of threads gives the same
-// bytes.
+// bytes, computed or read from the cache.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,6 +73,30 @@ TEST_P(PipelinesTest, ParallelGivesTheSameBytes) {
   std::erase_if(reference, [](const auto& file) { return file.first.ends_with(".html"); });
   std::erase_if(parallel, [](const auto& file) { return file.first.ends_with(".html"); });
   EXPECT_EQ(parallel, reference);
+}
+
+TEST_P(PipelinesTest, TheCacheGivesTheSameBytes) {
+  const ResolvedPipeline pipeline = read_pipeline({.file = file_, .sets = {}}, real_registry());
+  const auto scene = read_scene(pipeline.scene_file);
+  options_.end_frame = 20;
+  options_.cache_folder = folder_ / "cache";
+  options_.cache_limit_bytes = 1000000000;
+  options_.draw = false;
+  options_.least_gain = 0;
+  for (const char* name : {"computed", "kept", "read"}) {
+    options_.reuse = std::string(name) != "computed";
+    options_.output_folder = folder_ / name;
+    EXPECT_TRUE(run_pipeline(pipeline, scene, options_).complete);
+  }
+  const auto results = [this](const std::string& out) {
+    auto contents = comparable(out);
+    auto summary = json::parse(contents.at("summary.json"));
+    for (json& node : summary.at("nodes")) node.erase("calls");  // who worked is the difference
+    contents["summary.json"] = summary.dump(2);
+    return contents;
+  };
+  EXPECT_EQ(results("kept"), results("computed"));
+  EXPECT_EQ(results("read"), results("computed"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
