@@ -7,7 +7,7 @@
 namespace plaza::synthetic {
 namespace {
 
-constexpr double kArmSpread = 50.0 * std::numbers::pi / 180;
+constexpr double kArmSpread = 30.0 * std::numbers::pi / 180;
 constexpr double kLegSpread = 6.0 * std::numbers::pi / 180;
 
 BodyPose make_bind_pose(const Proportions& p) {
@@ -80,9 +80,9 @@ BodyShape::BodyShape(const Proportions& proportions, const Look& look)
       {at_.waist + 0.06f, 0.098f * g + t + belly, hips * 0.75f + 0.066f * g + t,
        0.004f + belly * 0.6f},
       {at_.chest + 0.35f * chest, 0.112f * g + t, shoulders * 0.58f + 0.045f * g + t, 0.006f},
-      {at_.chest + 0.72f * chest, 0.104f * g + t, shoulders * 0.72f + 0.035f * g + t, -0.004f},
-      {at_.chest + 0.93f * chest, 0.078f * g + t, shoulders * 0.66f, -0.012f},
-      {at_.neck + 0.025f, 0.052f * g, 0.056f * g, -0.012f},
+      {at_.chest + 0.72f * chest, 0.104f * g + t, shoulders * 0.80f + 0.030f * g + t, -0.004f},
+      {at_.chest + 0.93f * chest, 0.078f * g + t, shoulders * 0.86f, -0.012f},
+      {at_.neck + 0.035f, 0.052f * g, 0.056f * g, -0.012f},
   }};
   at_.torso_half_x = torso_sections_[3].half_x;
   at_.torso_half_y = torso_sections_[3].half_y;
@@ -120,7 +120,7 @@ float BodyShape::arm(const Vec3& p) const {
   const Vec3& s = at_.shoulder;
   const Vec3 elbow = s + at_.arm * at_.upper_arm;
   const Vec3 wrist = s + at_.arm * at_.wrist;
-  float d = tapered_capsule(p, s, elbow, 0.048f * g, 0.040f * g);
+  float d = tapered_capsule(p, s, elbow, 0.045f * g, 0.040f * g);
   d = smooth_union(d, tapered_capsule(p, elbow, wrist, 0.041f * g, 0.027f * g), 0.02f);
   // the hand: palm towards the thigh, thumb forward
   const Vec3 q = p - wrist - at_.arm * static_cast<float>(body_.hand_m * 0.42);
@@ -132,7 +132,7 @@ float BodyShape::arm(const Vec3& p) const {
   const float t = top_thickness_;
   const Vec3 cuff = s + at_.arm * (end - 0.02f);
   const float taper = 0.054f - 0.018f * look_.sleeve;
-  d = std::min(d, tapered_capsule(p, s, cuff, 0.052f * g + t, taper * g + 0.9f * t));
+  d = std::min(d, tapered_capsule(p, s, cuff, 0.047f * g + 0.6f * t, taper * g + 0.9f * t));
   return d;
 }
 
@@ -247,7 +247,7 @@ float BodyShape::bag(const Vec3& p) const {
 float BodyShape::distance(const Vec3& p) const {
   const Vec3 m = mirrored(p);
   float d = smooth_union(torso(p), leg(m), 0.05f);
-  d = smooth_union(d, arm(m), 0.05f);
+  d = smooth_union(d, arm(m), 0.03f);
   if (skirted_) d = smooth_union(d, skirt(p), 0.015f);
   d = smooth_union(d, bare_head(p), 0.03f);
   d = std::min(d, hair(p));

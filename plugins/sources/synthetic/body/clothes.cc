@@ -143,9 +143,12 @@ BodySurface Clothes::at(const Vec3& p) const {
     out.albedo *= 1 + 0.25f * n;
     out.bump = Vec3::Constant(0.12f * n);
     out.gloss = cap ? 0.0f : 0.05f;
+  } else if (p.z() > at.head + 0.01f) {
+    out.albedo = face(p);
+    out.gloss = 0.03f;
   } else if (std::hypot(p.x() + 0.012f, p.y()) < 0.11f &&
              p.z() > at.neck + 0.035f - 0.30f * std::max(0.0f, p.x() + 0.03f)) {
-    out.albedo = p.z() > at.head ? face(p) : look_.skin;
+    out.albedo = look_.skin;
     out.gloss = 0.03f;
   } else if (on_arm && arm.along > look_.sleeve * at.wrist) {
     out.albedo = look_.skin;

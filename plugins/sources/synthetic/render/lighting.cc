@@ -47,7 +47,9 @@ float Lights::irradiance(std::size_t light, const Vec3& p, const Vec3& n) const 
   const Lamp& lamp = stage_->lamps[light];
   const Vec3 d = lamp.centre - p;
   const float squared = d.squaredNorm();
-  const float cosines = std::max(0.0f, n.dot(d)) * std::max(0.0f, -lamp.normal.dot(d));
+  // a louvre narrows the beam: radiance falls with the cosine
+  const float beam = std::max(0.0f, -lamp.normal.dot(d)) / std::sqrt(squared);
+  const float cosines = std::max(0.0f, n.dot(d)) * std::max(0.0f, -lamp.normal.dot(d)) * beam;
   const float area = 4 * lamp.half_u.norm() * lamp.half_v.norm();
   // never more than from right below the lamp's surface
   return luminance(lamp.radiance) * std::min(kPi, area * cosines / (squared * squared));

@@ -53,9 +53,9 @@ RayDevice::RayDevice() : device_(rtcNewDevice("threads=1")) {
 }
 RayDevice::~RayDevice() { rtcReleaseDevice(device_); }
 
-RayScene::RayScene(std::shared_ptr<const RayDevice> device)
+RayScene::RayScene(std::shared_ptr<const RayDevice> device, bool tight)
     : device_(std::move(device)), scene_(rtcNewScene(device_->get())) {
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
+  if (tight) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
 }
 RayScene::~RayScene() { rtcReleaseScene(scene_); }
 
@@ -90,7 +90,7 @@ bool RayScene::blocked(const Vec3& origin, const Vec3& direction, float reach, f
 
 StageScene::StageScene(std::shared_ptr<const RayDevice> device,
                        std::shared_ptr<const StageModel> model)
-    : RayScene(std::move(device)), model_(std::move(model)) {
+    : RayScene(std::move(device), true), model_(std::move(model)) {
   RTCGeometry geometry = rtcNewGeometry(this->device(), RTC_GEOMETRY_TYPE_TRIANGLE);
   set_vertices(geometry, 0, model_->vertices);
   set_triangles(geometry, model_->triangles);
@@ -101,12 +101,10 @@ StageScene::StageScene(std::shared_ptr<const RayDevice> device,
 }
 
 PeopleScene::PeopleScene(std::shared_ptr<const RayDevice> device, std::vector<MovingBody> bodies)
-    : RayScene(std::move(device)), bodies_(std::move(bodies)) {
-  rtcSetSceneBuildQuality(scene(), RTC_BUILD_QUALITY_LOW);
+    : RayScene(std::move(device), false), bodies_(std::move(bodies)) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const MovingBody& body = bodies_[i];
     RTCGeometry geometry = rtcNewGeometry(this->device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryTimeStepCount(geometry, 2);
     set_vertices(geometry, 0, body.open);
     set_vertices(geometry, 1, body.close);

@@ -40,7 +40,8 @@ struct RayHit {
 /// Triangles that rays are shot at. Any number of threads may shoot at once.
 class RayScene {
  public:
-  explicit RayScene(std::shared_ptr<const RayDevice> device);
+  /// `tight`: no ray slips through between two triangles, for a tenth more time.
+  RayScene(std::shared_ptr<const RayDevice> device, bool tight);
   virtual ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

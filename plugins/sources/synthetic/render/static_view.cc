@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr std::uint32_t kAmbientRays = 8;
-constexpr std::uint32_t kMirrorRays = 4;
+constexpr std::uint32_t kMirrorRays = 6;
 constexpr std::uint32_t kShadowRays = 4;
 
 /// Lamps are no triangles; in a mirror they are seen all the same.
@@ -159,8 +159,10 @@ void StaticView::light(const StageScene& stage, const Lights& lights_of, const A
                        lamps_along(stage.model(), p, d, hit ? hit->distance : kNothing));
     }
   }
-  smooth_over_surface(*this, everywhere, 4, ambient);
-  smooth_over_surface(*this, everywhere, 2, gleam);
+  smooth_over_surface(*this, everywhere, 6, ambient);  // twice: close to a bell
+  smooth_over_surface(*this, everywhere, 6, ambient);
+  smooth_over_surface(*this, everywhere, 3, gleam);
+  smooth_over_surface(*this, everywhere, 3, gleam);
   for (std::size_t pixel = 0; pixel < pixels(); ++pixel) mirrored[pixel] += gleam[pixel];
 }
 

@@ -35,6 +35,8 @@ class ViewRenderer {
  private:
   struct Tile;
   struct Canvas;
+  struct Cover;
+  struct First;
   void choose_tiles(const PeopleScene& people, Canvas& canvas) const;
   void cast_shadows(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                     Canvas& canvas) const;
@@ -43,6 +45,9 @@ class ViewRenderer {
                      std::uint32_t random, std::size_t pixel) const;
   void mirror_people(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                      Canvas& canvas) const;
+  /// Takes one sample of a pixel.
+  void shade(const PeopleScene& people, const LightGains& gains, std::size_t pixel, int x, int y,
+             int sample, std::uint32_t random, Cover& cover) const;
   void draw_people(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                    Canvas& canvas) const;
 

@@ -34,8 +34,8 @@ SurfaceLook parquet(const Vec3& p, std::uint32_t seed) {
   const bool seam = std::min(0.11f * to_seam(row), 0.8f * to_seam(along)) < 0.0022f;
   SurfaceLook out;
   out.albedo = Rgb(0.36f, 0.225f, 0.125f) * (tone * grain * (seam ? 0.45f : 1) * stains(p, seed));
-  out.mirror = 0.035f;
-  out.roughness = 0.10f;
+  out.mirror = 0.025f;
+  out.roughness = 0.12f;
   return out;
 }
 
@@ -45,8 +45,8 @@ SurfaceLook linoleum(const Vec3& p, std::uint32_t seed) {
   SurfaceLook out;
   out.albedo =
       Rgb(0.30f, 0.31f, 0.32f) * ((1 + 0.22f * speckle) * stains(p, seed) * (seam ? 0.6f : 1.0f));
-  out.mirror = 0.04f;
-  out.roughness = 0.08f;
+  out.mirror = 0.025f;
+  out.roughness = 0.12f;
   return out;
 }
 
@@ -123,7 +123,7 @@ SurfaceLook wall(const Vec3& p, const Vec3& normal, std::uint32_t part, std::uin
       1 + 0.03f * fractal_noise(2.0f * p, seed, 3) + 0.02f * value_noise(60.0f * p, seed);
   const float scuffs = 1 - 0.10f * std::max(0.0f, 1 - p.z() / 0.6f) *
                                (0.5f + 0.5f * value_noise(3.0f * p, seed ^ 5u));
-  out.albedo = Rgb(0.62f, 0.61f, 0.57f) * (paint * scuffs);
+  out.albedo = Rgb(0.50f, 0.49f, 0.46f) * (paint * scuffs);
   if (seed % 2 == 0 && p.z() < 1.02f) {
     out.albedo = out.albedo.cwiseProduct(Rgb(0.70f, 0.80f, 0.84f));  // painted up to the hip
   }
@@ -182,7 +182,7 @@ SurfaceLook StageModel::look(std::uint32_t triangle, const Vec3& p, const Vec3& 
     case Material::kWall:
       return wall(p, normal, part, seed, layout);
     case Material::kCeiling:
-      return matt({0.75f, 0.75f, 0.74f}, p, 3, 0.03f, seed);
+      return matt({0.60f, 0.60f, 0.59f}, p, 3, 0.03f, seed);
     case Material::kDoorFrame:
       return matt({0.42f, 0.33f, 0.22f}, p, 9, 0.08f, seed);
     case Material::kCorridor:
@@ -190,7 +190,7 @@ SurfaceLook StageModel::look(std::uint32_t triangle, const Vec3& p, const Vec3& 
     case Material::kWood: {
       const Vec3 fibre(4 * p.x(), 45 * p.y(), 20 * p.z());
       SurfaceLook out = matt({0.44f, 0.31f, 0.18f}, fibre, 1, 0.16f, seed);
-      out.mirror = 0.035f;
+      out.mirror = 0.02f;
       out.roughness = 0.15f;
       return out;
     }
@@ -233,9 +233,9 @@ Rgb StageModel::mean_albedo(std::uint32_t triangle) const {
              : seed % 3 == 1 ? Rgb(0.29f, 0.30f, 0.31f)
                              : Rgb(0.13f, 0.15f, 0.19f);
     case Material::kWall:
-      return {0.57f, 0.56f, 0.53f};
+      return {0.45f, 0.44f, 0.42f};
     case Material::kCeiling:
-      return {0.75f, 0.75f, 0.74f};
+      return {0.60f, 0.60f, 0.59f};
     case Material::kGround:
       return {0.20f, 0.20f, 0.14f};
     case Material::kFacade:
