@@ -1,14 +1,7 @@
 #include "framework/cache/node_cache.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -23,24 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kDefaultLimit = std::uintmax_t{20} * 1000 * 1000 * 1000;
-
-/// A lock on a file that is made where it is missing; nothing while another process holds it.
-std::optional<EntryLock> lock_file(const fs::path& file) {
-  while (true) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor < 0)
-      throw UserError("cannot write " + file.string() + ": " + std::strerror(errno));
-    EntryLock lock(descriptor);
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
-    // whoever held it before may have removed the file that this is a lock of
-    struct stat own {};
-    struct stat named {};
-    if (::fstat(descriptor, &own) == 0 && ::stat(file.c_str(), &named) == 0 &&
-        own.st_ino == named.st_ino) {
-      return lock;
-    }
-  }
-}
 
 void add_files(const fs::path& folder, const std::string& extension, bool learned,
                std::vector<CachedFile>& files) {
@@ -59,18 +34,6 @@ void add_files(const fs::path& folder, const std::string& extension, bool learne
 }
 
 }  // namespace
-
-EntryLock::~EntryLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-EntryLock::EntryLock(EntryLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-EntryLock& EntryLock::operator=(EntryLock&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
 
 NodeCache::NodeCache(fs::path folder, std::uintmax_t limit_bytes)
     : folder_(std::move(folder)), nodes_(folder_ / "nodes"), limit_bytes_(limit_bytes) {}
@@ -92,11 +55,11 @@ std::unique_ptr<EntryWriter> NodeCache::create(std::string_view key) const {
   return std::make_unique<EntryWriter>(file_of(key), key);
 }
 
-std::optional<EntryLock> NodeCache::try_lock(std::string_view key) const {
+std::optional<FileLock> NodeCache::try_lock(std::string_view key) const {
   std::error_code error;
   fs::create_directories(nodes_, error);
   fs::path file = file_of(key);
-  return lock_file(file.replace_extension(".lock"));
+  return FileLock::try_lock(file.replace_extension(".lock"));
 }
 
 std::vector<CachedFile> NodeCache::list() const {
@@ -117,7 +80,7 @@ void NodeCache::remove_orphans() const {
     for (const CachedFile& file : files) {
       fs::path lock = file.file;
       if (lock.extension() == ".part") lock.replace_extension("");  // HASH.node.part
-      const auto held = lock_file(lock.replace_extension(".lock"));
+      const auto held = FileLock::try_lock(lock.replace_extension(".lock"));
       std::error_code ignored;  // it is in nobody's way
       if (held) fs::remove(file.file, ignored);
     }

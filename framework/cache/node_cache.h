@@ -9,22 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/cache/file_lock.h"
 #include "framework/cache/node_entry.h"
 
 namespace plaza {
-
-/// The right to compute one entry. The system takes it back when the process ends, however it does.
-class EntryLock {
- public:
-  EntryLock() = default;
-  explicit EntryLock(int descriptor) : descriptor_(descriptor) {}
-  ~EntryLock();
-  EntryLock(EntryLock&& other) noexcept;
-  EntryLock& operator=(EntryLock&& other) noexcept;
-
- private:
-  int descriptor_ = -1;
-};
 
 /// Something that stands in the cache.
 struct CachedFile {
@@ -47,7 +35,7 @@ class NodeCache {
   /// Creates the folder where it is missing.
   std::unique_ptr<EntryWriter> create(std::string_view key) const;
   /// The right to compute `key`; nothing while another process has it.
-  std::optional<EntryLock> try_lock(std::string_view key) const;
+  std::optional<FileLock> try_lock(std::string_view key) const;
   std::uintmax_t limit_bytes() const { return limit_bytes_; }
 
   /// Everything in the cache, the most recently used first.

@@ -24,6 +24,8 @@ struct StudyArguments {
   std::string cache;
   std::optional<double> cache_limit_gb;
   int jobs = 1;
+  std::string launcher = "local";
+  std::string hosts;
   bool check = false;
   bool retry = false;
   bool quiet = false;
@@ -37,6 +39,12 @@ StudyOptions options_of(const StudyArguments& arguments, const CliContext& conte
       arguments.cache.empty() ? default_cache_folder() : std::filesystem::path(arguments.cache);
   options.jobs = arguments.jobs;
   options.cache_limit_gb = arguments.cache_limit_gb;
+  if (arguments.launcher == "slurm") options.launcher = launch_slurm;
+  if (arguments.launcher == "parallel") options.launcher = launch_parallel;
+  if (!arguments.hosts.empty() && arguments.launcher != "parallel") {
+    throw UserError("--hosts is for --launcher parallel");
+  }
+  options.hosts = arguments.hosts;
   options.retry = arguments.retry;
   options.quiet = arguments.quiet;
   options.program = {own_program().string()};
@@ -90,6 +98,20 @@ void add_study_command(CLI::App& app, CliContext& context) {
   command->add_option("--jobs", arguments->jobs, "Runs at a time; default: 1")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
+  command
+      ->add_option(
+          "--launcher", arguments->launcher,
+          "local: processes of this machine; slurm: a job array on a cluster; parallel: GNU "
+          "parallel. The last two need the output folder, the cache and plaza itself on a "
+          "file system that all machines share")
+      ->check(CLI::IsMember({"local", "slurm", "parallel"}))
+      ->type_name("ENGINE");
+  command
+      ->add_option(
+          "--hosts", arguments->hosts,
+          "With --launcher parallel: ssh hosts, as its --sshlogin takes them (4/host1,host2; "
+          "\":\" is this machine)")
+      ->type_name("HOSTS");
   command
       ->add_option("--cache-dir", arguments->cache,
                    "Where results of nodes and learned models are kept; default: "

@@ -81,7 +81,7 @@ class Reuse {
   const ExecutionPlan* plan_ = nullptr;
   Demand demand_, without_cache_;
   std::map<Place, std::unique_ptr<EntryReader>> kept_;  ///< whole entries, declined ones included
-  std::map<Place, EntryLock> locks_;
+  std::map<Place, FileLock> locks_;
   std::vector<Recording> recordings_;
   std::optional<std::int64_t> replay_end_;
   std::vector<std::string> troubles_;

@@ -40,10 +40,12 @@ pid_t start_child(const std::vector<std::string>& words, const std::filesystem::
   return child;
 }
 
-std::string signal_text(int wait_status) {
-  if (!WIFSIGNALED(wait_status)) return {};
-  const int signal = WTERMSIG(wait_status);
+std::string signal_words(int signal) {
   return "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+}
+
+std::string signal_text(int wait_status) {
+  return WIFSIGNALED(wait_status) ? signal_words(WTERMSIG(wait_status)) : std::string();
 }
 
 std::filesystem::path own_program() {

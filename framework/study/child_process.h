@@ -12,7 +12,10 @@ namespace plaza {
 /// this process, and a Ctrl-C of the terminal does not reach it. A failure is a UserError.
 pid_t start_child(const std::vector<std::string>& words, const std::filesystem::path& log);
 
-/// "" for a child that ended by itself, else "ended by signal 11 (Segmentation fault)".
+/// "ended by signal 11 (Segmentation fault)".
+std::string signal_words(int signal);
+
+/// "" for a child that ended by itself, else signal_words().
 std::string signal_text(int wait_status);
 
 /// The path of the running program.

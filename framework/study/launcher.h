@@ -29,6 +29,8 @@ struct LaunchOptions {
   std::vector<std::string> program;      ///< how this program is called, its own options included
   std::vector<std::string> job_options;  ///< that every job's command gets
   int jobs = 1;                          ///< how many at a time
+  int threads = 1;                       ///< that each job uses
+  std::string hosts;                     ///< of GNU parallel: "4/host1,host2"; empty: this machine
   std::function<void(const LaunchJob&)> on_start;
   std::function<void(const LaunchEnd&)> on_end;
 };
@@ -39,5 +41,13 @@ using Launcher = void (*)(const std::vector<LaunchJob>& jobs, const LaunchOption
 
 /// Child processes of this one.
 void launch_local(const std::vector<LaunchJob>& jobs, const LaunchOptions& options);
+
+/// Job arrays of a Slurm cluster, by sbatch; `jobs` limits how many tasks work at a time. The
+/// cluster shares the study's folder, the cache and this program with this machine. Failures of
+/// sbatch are UserErrors.
+void launch_slurm(const std::vector<LaunchJob>& jobs, const LaunchOptions& options);
+
+/// GNU parallel, here or on ssh hosts, which share the same; `jobs` is per host.
+void launch_parallel(const std::vector<LaunchJob>& jobs, const LaunchOptions& options);
 
 }  // namespace plaza

@@ -1,16 +1,11 @@
 #include "framework/study/run_study.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <memory>
 #include <system_error>
 #include <thread>
 
+#include "framework/cache/file_lock.h"
 #include "framework/execution/stop.h"
 #include "framework/study/report/report_files.h"
 #include "framework/study/study_job.h"
@@ -23,38 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keeps a second study out of the folder for as long as it lives, also when its process is killed.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) {
-      throw UserError("cannot create the output folder " + folder.string() + ": " +
-                      error.message() + "; choose another one with --out");
-    }
-    descriptor_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor_ < 0) {
-      throw UserError("cannot write into " + folder.string() + ": " + std::strerror(errno));
-    }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(descriptor_);
-      throw UserError("a study is at work in " + folder.string() + "; choose another --out");
-    }
+FileLock lock_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw UserError("cannot create the output folder " + folder.string() + ": " + error.message() +
+                    "; choose another one with --out");
   }
-  ~FolderLock() { ::close(descriptor_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_ = -1;
-};
+  auto lock = FileLock::try_lock(folder / ".lock");
+  if (!lock) throw UserError("a study is at work in " + folder.string() + "; choose another --out");
+  return std::move(*lock);
+}
 
 class StudyRun {
  public:
   StudyRun(StudyEnd& end, const StudyOptions& options) : end_(end), options_(options) {}
 
   void run() {
-    const FolderLock lock(options_.out);
+    const FileLock lock = lock_folder(options_.out);
     outcomes_.resize(end_.prepared.jobs.size());
     find_pending();
     launch();
@@ -110,6 +91,8 @@ class StudyRun {
                                 {"--cache-limit", std::to_string(*options_.cache_limit_gb)});
     }
     launch.jobs = options_.jobs;
+    launch.threads = threads;
+    launch.hosts = options_.hosts;
     launch.on_start = [&progress](const LaunchJob&) { progress.started(); };
     launch.on_end = [&](const LaunchEnd& end) {
       take(end);

@@ -18,6 +18,7 @@ struct StudyOptions {
   std::optional<double> cache_limit_gb;  ///< nothing: default_cache_limit()
   int jobs = 1;
   Launcher launcher = launch_local;
+  std::string hosts;                 ///< see LaunchOptions
   std::vector<std::string> program;  ///< how this program is called, its own options included
   bool retry = false;                ///< jobs that failed are run again
   bool quiet = false;

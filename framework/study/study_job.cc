@@ -1,11 +1,15 @@
 #include "framework/study/study_job.h"
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 
+#include "framework/cache/file_lock.h"
 #include "framework/config/json_document.h"
 #include "framework/config/pipeline.h"
 #include "framework/execution/run.h"
+#include "framework/execution/stop.h"
 #include "framework/study/job_result.h"
 #include "plaza/core/error.h"
 #include "plaza/io/output_file.h"
@@ -52,6 +56,12 @@ void write_job_order(const fs::path& folder, const PreparedJob& job, const JobOr
 
 bool run_study_job(const JobOptions& options, const Registry& registry) {
   const JobOrder order = read_job_order(options.folder);
+  // one that an earlier start has left at work elsewhere: its result is as good
+  std::optional<FileLock> lock;
+  while (!(lock = FileLock::try_lock(options.folder / ".lock"))) {
+    if (stop_requested()) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   if (read_job_result(options.folder, order.key)) return true;
   RunOptions run;
   run.first_frame = order.frames.first;

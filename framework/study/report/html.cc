@@ -13,6 +13,7 @@ namespace {
 
 // so many metrics are unfolded from the start
 constexpr std::size_t kUnfolded = 4;
+constexpr std::size_t kManyVariants = 16;
 
 constexpr const char* kStyle = R"(
 :root { color-scheme: light; }
@@ -61,6 +62,12 @@ std::string table_html(const WordTable& table) {
   }
   out << "</tbody></table></div>\n";
   return out.str();
+}
+
+std::string results_html(const StudyResults& results) {
+  std::string html = "<h2>Results</h2>\n";
+  for (const WordTable& table : result_tables(results)) html += table_html(table);
+  return html;
 }
 
 std::string better_text(Better better) {
@@ -134,8 +141,9 @@ std::string report_html(const StudyResults& results) {
     for (const std::string& line : failures) out << "<li>" << escaped(line) << "</li>";
     out << "</ul></div>\n";
   }
-  out << "<h2>Results</h2>\n";
-  for (const WordTable& table : result_tables(results)) out << table_html(table);
+  // long tables come behind the plots
+  const bool many = results.prepared->expansion.variants.size() > kManyVariants;
+  if (!many) out << results_html(results);
   const auto differences = difference_tables(results);
   if (!differences.empty()) {
     out << "<h2>Differences from " << escaped(baseline_text(study)) << "</h2>\n<p class=\"quiet\">"
@@ -150,6 +158,7 @@ std::string report_html(const StudyResults& results) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     out << metric_html(results, comparisons, chosen[i], i < kUnfolded);
   }
+  if (many) out << results_html(results);
   out << "<h2>Times</h2>\n<p class=\"quiet\">What all nodes of a run took together, per frame, "
          "measured once where several variants share a node's results. Runs that work side by side "
          "slow each other down.</p>\n"
