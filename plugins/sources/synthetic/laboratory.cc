@@ -175,7 +175,7 @@ std::vector<TruePerson> Laboratory::people(std::int64_t frame) const {
     const auto identity = world_.identity(states[i].person, t);
     if (!identity) continue;  // beyond the observed area: drawn, but nobody's to find
     TruePerson& person = out.emplace_back();
-    person.id = static_cast<std::int64_t>(*identity);
+    person.id = static_cast<std::int64_t>(*identity) + 1;  // files count from 1
     person.position_m = states[i].position_m;
     person.heading_rad = states[i].heading_rad;
     for (std::size_t c = 0; c < seen.size(); ++c) {

@@ -219,6 +219,11 @@ const std::map<std::string, Maker>& table() {
              trial("two frames",
                    {{"frames", {3, 1}}, {"evidence", {{{"from", "edges"}}, {{"from", "color"}}}}})};
        }},
+      {"image-data-set",
+       [](const fs::path&) {
+         return std::vector<Trial>{Trial(),
+                                   trial("jpeg", {{"format", "jpeg"}, {"people_free", 2}})};
+       }},
       {"summary", [](const fs::path&) { return defaults(); }},
   };
   return kTable;

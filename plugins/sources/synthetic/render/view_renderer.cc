@@ -319,7 +319,7 @@ void ViewRenderer::cast_shadows(const PeopleScene& people, const LightGains& gai
       }
     }
   }
-  smooth_over_surface(view_, active, 2, lost);
+  smooth_over_surface(view_, active, 3, lost);
   for (std::size_t pixel = 0; pixel < view_.pixels(); ++pixel) {
     if (active[pixel] == 0) continue;
     out[pixel] = (out[pixel] - view_.albedo[pixel].cwiseProduct(lost[pixel]) / kPi).cwiseMax(0.0f);
