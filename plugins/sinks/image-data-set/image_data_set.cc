@@ -177,6 +177,7 @@ void ImageDataSet::do_write_rest(const NodeIo& /*io*/) {}
 void ImageDataSet::write_truth(const GroundTruth& truth, std::int64_t frame) {
   if (!ground_) {
     ground_ = std::make_unique<OutputFile>(folder_ / "ground.csv");
+    ground_->write("frame,id,x_m,y_m,heading_deg\n");
     for (const Camera& camera : scene_->cameras) {
       rows_.emplace_back(folder_ / ("gt." + camera.name() + ".txt"));
     }
@@ -193,9 +194,7 @@ void ImageDataSet::write_truth(const GroundTruth& truth, std::int64_t frame) {
     if (!person.position_m) continue;
     std::string row =
         text("%lld,%lld,%.5f,%.5f", number, id, person.position_m->x(), person.position_m->y());
-    if (person.heading_rad) {
-      row += text(",%.4f", *person.heading_rad * 180 / std::numbers::pi);
-    }
+    row += person.heading_rad ? text(",%.4f", *person.heading_rad * 180 / std::numbers::pi) : ",";
     ground_->write(row + "\n");
   }
 }
