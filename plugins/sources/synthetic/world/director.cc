@@ -189,6 +189,11 @@ void Director::later(double at_s, std::function<void()> what) {
   appointments_.emplace(at_s, std::move(what));
 }
 
+void Director::drop_orders(std::size_t who) {
+  orders_[who].clear();
+  break_off_acts(who);
+}
+
 void Director::begin_order(std::size_t who, Order& order) {
   order.begun_s = now_s_;
   Walker& walker = crowd_.walkers[who];
@@ -205,6 +210,9 @@ void Director::begin_order(std::size_t who, Order& order) {
       break;
     case Order::Kind::kStand:
       walker.way = {walker.position};
+      if (order.seconds > 1.2 && random_.chance(0.4)) {
+        act(who, resting_posture(random_), order.seconds);
+      }
       break;
     case Order::Kind::kMeet:
       break;  // advance_meeting() moves it

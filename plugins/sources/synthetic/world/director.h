@@ -48,6 +48,9 @@ struct Stay {
 
 class Director;
 
+/// How listeners and people who stand about hold their arms.
+ActKind resting_posture(Random& random);
+
 /// What is to happen. A scenario gives orders to people; whoever has done all of them is asked
 /// about again.
 class Scenario {
@@ -95,7 +98,8 @@ class Director {
   void meet(Meeting meeting);
   /// Something the arms do for a while from now on.
   void act(std::size_t who, ActKind kind, double seconds);
-  void drop_orders(std::size_t who) { orders_[who].clear(); }
+  /// Lets go of what a person was ordered to do, and of what its arms do.
+  void drop_orders(std::size_t who);
   void later(double at_s, std::function<void()> what);
 
   void run(Scenario& scenario, double until_s);
@@ -134,6 +138,7 @@ class Director {
   void place_members(Running& meeting);
   double distance_of(const Running& meeting) const;
   void end_meeting(Running& meeting);
+  void break_off_acts(std::size_t who);
   void vanish(std::size_t who);
   void record();
 

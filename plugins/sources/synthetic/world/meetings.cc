@@ -16,7 +16,8 @@ constexpr double kPatienceS = 14;  // how long people wait for someone who doesn
 
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// Postures of listeners and of people who stand about.
+}  // namespace
+
 ActKind resting_posture(Random& random) {
   constexpr ActKind kPostures[] = {ActKind::kArmsCrossed, ActKind::kHandsOnHips,
                                    ActKind::kHandsInPockets, ActKind::kHandsBehind,
@@ -24,14 +25,12 @@ ActKind resting_posture(Random& random) {
   return kPostures[random.index(std::size(kPostures))];
 }
 
-}  // namespace
-
 void Director::meet(Meeting plan) {
   Running meeting;
   meeting.group = static_cast<int>(meetings_.size());
   meeting.called_s = now_s_;
   for (const std::size_t who : plan.who) {
-    orders_[who].clear();
+    drop_orders(who);
     Order order;
     order.kind = Order::Kind::kMeet;
     order.meeting = meetings_.size();
@@ -182,6 +181,18 @@ void Director::begin_phase(Running& meeting) {
   }
 }
 
+void Director::break_off_acts(std::size_t who) {
+  const auto stay = open_.find(who);
+  if (stay == open_.end()) {
+    return;
+  }
+  constexpr double kLettingGoS = 0.6;  // the time in which an act is blended out
+  std::erase_if(stay->second.acts, [&](const Stay::StayAct& act) { return act.begin_s >= now_s_; });
+  for (Stay::StayAct& act : stay->second.acts) {
+    act.end_s = std::min(act.end_s, std::max(now_s_, act.begin_s + kLettingGoS) + kLettingGoS);
+  }
+}
+
 void Director::end_meeting(Running& meeting) {
   meeting.over = true;
   for (const std::size_t who : meeting.plan.who) {
@@ -190,12 +201,7 @@ void Director::end_meeting(Running& meeting) {
       walker.group = -1;
       walker.settled = false;
     }
-    // what was planned beyond the end is broken off
-    if (const auto stay = open_.find(who); stay != open_.end()) {
-      for (auto& act : stay->second.acts) {
-        act.end_s = std::min(act.end_s, std::max(now_s_, act.begin_s + 0.1));
-      }
-    }
+    break_off_acts(who);
   }
 }
 

@@ -171,6 +171,27 @@ TEST_P(EveryScenario, LimbsStayWholeAndJointsWithinTheirLimits) {
   EXPECT_LT(most_bent, 2.4);
 }
 
+TEST_P(EveryScenario, LimbsMoveWithoutJumps) {
+  double quickest = 0;  // against the pelvis, metres per second
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const World world(options_of(GetParam(), seed));
+    for (const Film& reel : film(world, 20, 50)) {
+      for (std::size_t k = 1; k < reel.states.size(); ++k) {
+        const BodyPose& now = reel.states[k].pose;
+        const BodyPose& before = reel.states[k - 1].pose;
+        const Vector3d moved =
+            now[Segment::kPelvis].translation() - before[Segment::kPelvis].translation();
+        for (std::size_t s = 0; s < kSegmentCount; ++s) {
+          const Vector3d change = now.world_from_segment[s].translation() -
+                                  before.world_from_segment[s].translation() - moved;
+          quickest = std::max(quickest, 50 * change.norm());
+        }
+      }
+    }
+  }
+  EXPECT_LT(quickest, GetParam() == "campus" ? 8.0 : 4.5);
+}
+
 TEST_P(EveryScenario, PositionIsThePelvisAndHeadingTheChest) {
   const World world(options_of(GetParam(), 1));
   for (double t = 0; t <= 20; t += 0.5) {
