@@ -1,5 +1,6 @@
 #include "plugins/sources/synthetic/world/common_orders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,12 +45,12 @@ void cross(Director& director, std::size_t who, double slowest_mps, double faste
 
 std::vector<Phase> greeting(Random& random, double seconds) {
   const double choice = random.unit();
-  const double first = seconds * random.uniform(0.4, 0.6);
+  const double first = std::max(1.5, seconds * random.uniform(0.4, 0.6));
   const double rest = std::max(1.2, seconds - first);
   if (choice < 0.40) {
     return {{Phase::Kind::kHandshake, first}, {Phase::Kind::kTalk, rest}};
   }
-  if (choice < 0.70) {
+  if (choice < 0.70 && seconds > 3) {  // an embrace takes its time
     return {{Phase::Kind::kHug, first}, {Phase::Kind::kTalk, rest}};
   }
   return {{Phase::Kind::kTalk, first + rest}};
