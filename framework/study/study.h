@@ -69,7 +69,4 @@ Study read_study(const std::filesystem::path& file);
 /// The same from text; `file` names it and is where relative paths start.
 Study read_study_text(std::string_view text, const std::filesystem::path& file);
 
-/// JSON Schema (draft 7) of studies, for editors.
-nlohmann::json study_schema();
-
 }  // namespace plaza

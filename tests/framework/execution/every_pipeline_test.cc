@@ -10,6 +10,7 @@
 
 #include "framework/plugin/loader.h"
 #include "framework/scene/scene_file.h"
+#include "framework/study/prepare.h"
 #include "tests/support/execution_fixture.h"
 
 namespace plaza {
@@ -97,6 +98,20 @@ TEST_P(PipelinesTest, TheCacheGivesTheSameBytes) {
   };
   EXPECT_EQ(results("kept"), results("computed"));
   EXPECT_EQ(results("read"), results("computed"));
+}
+
+TEST(StudiesTest, AllThatComeWithPlazaPassTheCheck) {
+  std::size_t seen = 0;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(PLAZA_SOURCE_DIR) / "pipelines" / "studies")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(".json") || name.ends_with(".schema.json")) continue;
+    const PreparedStudy study = prepare_study(read_study(entry.path()), real_registry());
+    EXPECT_GT(study.expansion.variants.size(), 1U) << name;
+    EXPECT_FALSE(study.metrics.empty()) << name;
+    ++seen;
+  }
+  EXPECT_GE(seen, 2U);
 }
 
 INSTANTIATE_TEST_SUITE_P(
