@@ -8,6 +8,9 @@
 
 namespace plaza::synthetic {
 
+/// A stage has no more lights than this.
+inline constexpr std::size_t kMostLights = 8;
+
 /// Factors on the light of one moment: lamps age, clouds pass.
 struct LightGains {
   std::vector<float> direct;  ///< of each light

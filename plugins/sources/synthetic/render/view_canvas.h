@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "plugins/sources/synthetic/render/view_renderer.h"
+
+namespace plaza::synthetic {
+
+inline constexpr int kTile = 8;
+inline constexpr float kPi = std::numbers::pi_v<float>;
+inline constexpr float kContactReach = 1.1f;  // metres over which a body darkens what is near
+inline constexpr float kMirrorReach = 3.0f;   // metres over which a floor mirrors a body
+
+/// A ball around what moves of a body in one exposure: of the whole, or of one segment.
+using Ball = Eigen::Vector4f;
+
+struct BodyBalls {
+  Ball whole;
+  std::vector<Ball> segments;
+  std::array<Eigen::AlignedBox3f, kSegmentCount> boxes;
+};
+
+/// What one picture is drawn on.
+struct ViewRenderer::Canvas {
+  cv::Mat image;
+  std::vector<BodyBalls> bodies;
+  std::vector<std::uint32_t>
+      shaded;  // per tile: bit l + 1: light l may be kept off, bit 0: ambient
+  std::vector<std::uint8_t> mirrors;  // per tile
+  std::vector<std::uint8_t> covered;  // per tile
+};
+
+/// A point of a body as light sees it.
+struct BodyPoint {
+  Vec3 place, normal;
+  const BodySurface* surface = nullptr;
+};
+
+BodyPoint body_point(const MovingBody& body, const RayHit& hit, const Vec3& origin,
+                     const Vec3& direction, float time);
+
+}  // namespace plaza::synthetic
