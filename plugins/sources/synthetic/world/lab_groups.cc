@@ -151,7 +151,7 @@ class SixTargets final : public Scenario {
         director.leave(who, director.random().index(director.stage().doors.size()),
                        director.random().uniform(1.1, 1.4));
         director.later(director.now_s() + 0.5, [&] { arrive(director); });
-        director.later(director.now_s() + director.random().uniform(3.5, 4.1),
+        director.later(director.now_s() + director.random().uniform(3.1, 3.7),
                        [&] { depart(director); });
         return;
       }

@@ -120,7 +120,7 @@ class FourCrossing final : public Scenario {
     if (random.chance(0.12) && meet_someone(director, who, 1.0, 2.0)) {
       return;
     }
-    cross(director, who, 0.9, 1.45, 0.35);
+    cross(director, who, 0.9, 1.45, 0.6);
     if (random.chance(0.2)) {
       director.stand(who, random.uniform(0.2, 1.0));
     }

@@ -44,11 +44,11 @@ void Director::meet(Meeting plan) {
 /// Between opposite members (pairs: between the two).
 double Director::distance_of(const Running& meeting) const {
   if (meeting.plan.who.size() > 2) {
-    // neighbours in the circle stand 0.85 m apart
-    return 0.85 / std::sin(std::numbers::pi / static_cast<double>(meeting.plan.who.size()));
+    // neighbours in the circle stand 1.05 m apart
+    return 1.05 / std::sin(std::numbers::pi / static_cast<double>(meeting.plan.who.size()));
   }
   if (!meeting.begun) {
-    return 0.82;  // whatever they are going to do, first they stand before each other
+    return 0.92;  // whatever they are going to do, first they stand before each other
   }
   switch (meeting.plan.phases[meeting.phase].kind) {
     case Phase::Kind::kHug:
@@ -57,9 +57,9 @@ double Director::distance_of(const Running& meeting) const {
       return 0.66;
     case Phase::Kind::kTalk:
     case Phase::Kind::kRest:
-      return 0.82;
+      return 0.92;
   }
-  return 0.82;
+  return 0.92;
 }
 
 void Director::place_members(Running& meeting) {
