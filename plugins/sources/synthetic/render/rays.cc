@@ -45,7 +45,8 @@ void set_triangles(RTCGeometry geometry,
 
 }  // namespace
 
-RayDevice::RayDevice() : device_(rtcNewDevice("threads=1")) {
+// not "threads=1": Embree would hold all of oneTBB, and so the whole run, to one thread
+RayDevice::RayDevice() : device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) {
     throw InternalError("Embree does not start (error " +
                         std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
