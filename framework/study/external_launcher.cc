@@ -57,7 +57,8 @@ ExternalJobs::ExternalJobs(const std::vector<LaunchJob>& jobs, const LaunchOptio
   std::string command;
   for (const std::string& word : options.program) command += shell_quoted(word) + " ";
   command += "study-job \"$1\"";
-  for (const std::string& word : options.job_options) command.append(" ").append(shell_quoted(word));
+  for (const std::string& word : options.job_options)
+    command.append(" ").append(shell_quoted(word));
   write_file(script_,
              "#!/bin/sh\n"
              "# Runs one job of a study, and leaves how its process ended beside its log.\n" +

@@ -44,10 +44,11 @@ void launch_parallel(const std::vector<LaunchJob>& jobs, const LaunchOptions& op
   // mean other jobs as soon as the study has changed. The log is resumed, so that it is of all
   // starts.
   const auto log = external.folder() / "parallel.joblog";
-  std::vector<std::string> words = {"parallel",   "--will-cite",      "--halt",
-                                    "never",      "--jobs",           std::to_string(options.jobs),
-                                    "--joblog",   std::string("+").append(log.string()), "--arg-file",
-                                    list.string()};
+  std::vector<std::string> words = {"parallel",   "--will-cite",
+                                    "--halt",     "never",
+                                    "--jobs",     std::to_string(options.jobs),
+                                    "--joblog",   std::string("+").append(log.string()),
+                                    "--arg-file", list.string()};
   if (!options.hosts.empty()) words.insert(words.end(), {"--sshlogin", options.hosts});
   words.push_back(shell_quoted(external.script().string()).append(" {}"));
   const pid_t child = start_child(words, external.folder() / "parallel.txt");
