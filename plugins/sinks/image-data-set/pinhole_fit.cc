@@ -1,5 +1,6 @@
 #include "plugins/sinks/image-data-set/pinhole_fit.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <vector>
 

@@ -34,9 +34,10 @@ BodyMesh::BodyMesh(const Proportions& proportions, const Look& look, float edge_
     const Vec3 &a = rest_[t[0]], ab = rest_[t[1]] - a, ac = rest_[t[2]] - a;
     for (int i = 0; i < kDivisions; ++i) {
       for (int k = 0; k < 2 * (kDivisions - i) - 1; ++k) {  // upright and inverted parts in turn
+        const int column = k / 2;
         const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
         const float u = (static_cast<float>(i) + third) * kPart;
-        const float v = (static_cast<float>(k / 2) + third) * kPart;
+        const float v = (static_cast<float>(column) + third) * kPart;
         texels_.push_back(clothes_.at(a + u * ab + v * ac));
       }
     }
