@@ -1,5 +1,6 @@
 #include "plugins/sources/synthetic/world/crowd.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "plaza/geometry/angle.h"
 #include "plugins/sources/synthetic/people/proportions.h"
@@ -166,7 +167,7 @@ void Director::go(std::size_t who, const Vector2d& to_m, double speed_mps, Facin
   order.kind = Order::Kind::kGo;
   order.to_m = to_m;
   order.speed_mps = speed_mps;
-  order.facing = facing;
+  order.facing = std::move(facing);
   orders_[who].push_back(order);
 }
 
@@ -174,7 +175,7 @@ void Director::stand(std::size_t who, double seconds, Facing facing) {
   Order order;
   order.kind = Order::Kind::kStand;
   order.seconds = seconds;
-  order.facing = facing;
+  order.facing = std::move(facing);
   orders_[who].push_back(order);
 }
 
