@@ -127,13 +127,14 @@ std::vector<MovingBody> Laboratory::bodies(std::int64_t frame) const {
     MovingBody& body = out.emplace_back();
     body.person = person.person;
     body.mesh = meshes_[person.person];
-    body.heading_rad = static_cast<float>(person.heading_rad);
-    const std::size_t count = body.mesh->vertex_count();
-    for (auto* vertices : {&body.open, &body.close, &body.open_normals, &body.close_normals}) {
-      vertices->resize(count);
+    body.heading = {static_cast<float>(std::cos(person.heading_rad)),
+                    static_cast<float>(std::sin(person.heading_rad))};
+    for (auto* vertices : {&body.open, &body.close, &body.normals}) {
+      vertices->resize(body.mesh->vertex_count());
     }
-    body.mesh->pose(of(open, person).pose, body.open, body.open_normals);
-    body.mesh->pose(of(close, person).pose, body.close, body.close_normals);
+    body.mesh->place(of(open, person).pose, body.open);
+    body.mesh->place(of(close, person).pose, body.close);
+    body.mesh->turn(person.pose, body.normals);
   }
   return out;
 }

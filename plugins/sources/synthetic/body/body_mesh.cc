@@ -55,23 +55,39 @@ const BodySurface& BodyMesh::surface(std::uint32_t triangle, float u, float v) c
   return texels_[triangle * kDivisions * kDivisions + static_cast<std::size_t>(at)];
 }
 
-void BodyMesh::pose(const BodyPose& pose, std::span<Vec3> positions,
-                    std::span<Vec3> normals) const {
-  using Transform = Eigen::Matrix<float, 3, 4>;
-  std::array<Transform, kSegmentCount> move;
+std::array<BodyMesh::Transform, kSegmentCount> BodyMesh::moves(const BodyPose& pose) const {
+  std::array<Transform, kSegmentCount> out;
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const Eigen::Isometry3d world_from_bind =
         pose.world_from_segment[s] * bind_.world_from_segment[s].inverse();
-    move[s] = world_from_bind.matrix().topRows<3>().cast<float>();
+    out[s] = world_from_bind.matrix().topRows<3>().cast<float>();
   }
+  return out;
+}
+
+void BodyMesh::place(const BodyPose& pose, std::span<Vec3> positions) const {
+  const auto move = moves(pose);
   for (std::size_t v = 0; v < rest_.size(); ++v) {
     const SkinWeights& w = weights_[v];
-    Transform blend = w.weight[0] * move[w.segment[0]];
+    const Eigen::Vector4f rest = rest_[v].homogeneous();
+    Vec3 sum = w.weight[0] * (move[w.segment[0]] * rest);
     for (std::size_t k = 1; k < w.weight.size(); ++k) {
-      if (w.weight[k] > 0) blend += w.weight[k] * move[w.segment[k]];
+      if (w.weight[k] > 0) sum += w.weight[k] * (move[w.segment[k]] * rest);
     }
-    positions[v] = blend.leftCols<3>() * rest_[v] + blend.col(3);
-    normals[v] = (blend.leftCols<3>() * rest_normals_[v]).normalized();
+    positions[v] = sum;
+  }
+}
+
+void BodyMesh::turn(const BodyPose& pose, std::span<Vec3> normals) const {
+  const auto move = moves(pose);
+  for (std::size_t v = 0; v < rest_.size(); ++v) {
+    const SkinWeights& w = weights_[v];
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < w.weight.size(); ++k) {
+      if (w.weight[k] > 0)
+        sum += w.weight[k] * (move[w.segment[k]].leftCols<3>() * rest_normals_[v]);
+    }
+    normals[v] = sum.normalized();
   }
 }
 

@@ -28,11 +28,15 @@ class BodyMesh {
   /// The segment that each vertex follows most.
   const std::vector<std::uint8_t>& main_segment() const { return main_segment_; }
 
-  /// World positions and unit normals of all vertices; both spans hold vertex_count() entries.
-  void pose(const BodyPose& pose, std::span<Vec3> positions, std::span<Vec3> normals) const;
+  /// World positions of all vertices; the span holds vertex_count() entries.
+  void place(const BodyPose& pose, std::span<Vec3> positions) const;
+  /// Unit normals of all vertices, in the world's axes.
+  void turn(const BodyPose& pose, std::span<Vec3> normals) const;
 
  private:
   static constexpr int kDivisions = 4;
+  using Transform = Eigen::Matrix<float, 3, 4>;
+  std::array<Transform, kSegmentCount> moves(const BodyPose& pose) const;
 
   Clothes clothes_;
   BodyPose bind_;

@@ -1,4 +1,4 @@
-// What people take from the light of the stage, and what its floors mirror of them.
+// What people take from the light of the stage.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +8,23 @@
 #include "plugins/sources/synthetic/render/view_renderer.h"
 
 namespace plaza::synthetic {
+namespace {
+
+constexpr int kSmoothing = 3;  // px
+
+}  // namespace
+
+/// Light that people keep off the stage: irradiance by pixel, and the rays that find it.
+struct ViewRenderer::Shade {
+  const PeopleScene& people;
+  const LightGains& gains;
+  std::uint32_t key;
+  std::vector<Rgbw> lost;
+
+  // of one tile
+  std::vector<RayQuery> towards_light = {}, around = {};
+  std::vector<std::pair<std::size_t, Rgb>> light = {}, near = {};  // pixel, what a ray may find
+};
 
 Rgb ViewRenderer::lost_to_others(const PeopleScene& people, const Vec3& p, const Vec3& n,
                                  std::uint32_t mask, std::uint32_t random,
@@ -27,158 +44,142 @@ Rgb ViewRenderer::lost_to_others(const PeopleScene& people, const Vec3& p, const
   return lost;
 }
 
+void ViewRenderer::aim_at_light(std::uint32_t mask, int x, int y, std::size_t pixel,
+                                Shade& shade) const {
+  std::array<float, kMostLights + 1> weight;
+  weight[0] = (mask & 1u) != 0 ? shade.gains.ambient * luminance(view_.ambient[pixel]) : 0.0f;
+  float total = weight[0];
+  for (std::size_t l = 0; l < view_.lights; ++l) {
+    const bool wanted = lights_.soft() && (mask & (2u << l)) != 0;
+    weight[l + 1] = wanted ? shade.gains.direct[l] * view_.direct[pixel * view_.lights + l] : 0.0f;
+    total += weight[l + 1];
+  }
+  if (total <= 0) return;
+  // neighbours choose different lights
+  const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ shade.key);
+  float choice = rank_in_square(x, y, to_unit(random)) * total;
+  std::size_t which = 0;
+  while (which < view_.lights && (choice >= weight[which] || weight[which] <= 0)) {
+    choice -= weight[which];
+    ++which;
+  }
+  if (weight[which] <= 0) return;
+  const Vec3& n = view_.normal[pixel];
+  RayQuery ray;
+  ray.origin = view_.point[pixel] + 2e-3f * n;
+  ray.time = to_unit(hash32(random + 1));
+  const float a = to_unit(hash32(random + 2)), b = to_unit(hash32(random + 3));
+  if (which == 0) {
+    ray.direction = cosine_direction(n, a, b);
+    ray.reach = kContactReach;
+    shade.around.push_back(ray);
+    shade.near.emplace_back(
+        pixel, view_.ambient[pixel] * (shade.gains.ambient * 0.85f * total / weight[0]));
+  } else {
+    const TowardsLight to = lights_.sample(which - 1, ray.origin, a, b);
+    ray.direction = to.direction;
+    ray.reach = to.distance;
+    shade.towards_light.push_back(ray);
+    shade.light.emplace_back(pixel, total * lights_.colour(which - 1));
+  }
+}
+
+bool ViewRenderer::shoot(Shade& shade) const {
+  bool any = false;
+  std::array<std::uint8_t, kTilePixels> blocked;
+  shade.people.blocked(shade.towards_light, blocked);
+  for (std::size_t i = 0; i < shade.light.size(); ++i) {
+    if (blocked[i] == 0) continue;
+    shade.lost[shade.light[i].first].head<3>() += shade.light[i].second;
+    any = true;
+  }
+  std::array<std::optional<RayHit>, kTilePixels> hits;
+  shade.people.trace(shade.around, hits);
+  for (std::size_t i = 0; i < shade.near.size(); ++i) {
+    if (!hits[i]) continue;
+    const float far = hits[i]->distance / kContactReach;
+    shade.lost[shade.near[i].first].head<3>() += (1 - far * far) * shade.near[i].second;
+    any = true;
+  }
+  shade.towards_light.clear();
+  shade.around.clear();
+  shade.light.clear();
+  shade.near.clear();
+  return any;
+}
+
+void ViewRenderer::cast_sun(const PeopleScene& people, float gain, std::uint32_t key, int x, int y,
+                            std::size_t pixel, cv::Mat& image) const {
+  const float sun = gain * view_.direct[pixel * view_.lights];
+  if (sun <= 0) return;
+  const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ key);
+  const Vec3 off = 2e-3f * view_.normal[pixel];
+  int blocked = 0;
+  for (int i = 0; i < view_.samples(); ++i) {
+    const std::size_t s =
+        pixel * static_cast<std::size_t>(view_.samples()) + static_cast<std::size_t>(i);
+    if (view_.depth[s] >= StaticView::kNothing) continue;
+    const Eigen::Vector2f at = view_.sample_offset(i);
+    const Vec3 q =
+        view_.rays().origin() + view_.depth[s] * view_.rays().direction(x, y, at.x(), at.y()) + off;
+    const std::uint32_t mine = random + 16 + 4 * static_cast<std::uint32_t>(i);
+    const TowardsLight to = lights_.sample(0, q, to_unit(hash32(mine)), to_unit(hash32(mine + 1)));
+    const float time =
+        (static_cast<float>(i) + to_unit(hash32(mine + 2))) / static_cast<float>(view_.samples());
+    blocked += people.blocked(q, to.direction, to.distance, time) ? 1 : 0;
+  }
+  if (blocked == 0) return;
+  const Rgb kept =
+      (sun * static_cast<float>(blocked) / static_cast<float>(view_.samples())) * lights_.colour(0);
+  image.ptr<Vec3>()[pixel] -= view_.albedo[pixel].cwiseProduct(kept) / kPi;
+}
+
 void ViewRenderer::cast_shadows(const PeopleScene& people, const LightGains& gains,
                                 std::uint32_t key, Canvas& canvas) const {
-  const int w = view_.width();
-  std::vector<Rgb> lost(view_.pixels(), Rgb::Zero());  // irradiance that people keep off
-  std::vector<std::uint8_t> active(view_.pixels(), 0);
-  auto* out = canvas.image.ptr<Vec3>();
-  std::vector<float> weight(view_.lights + 1);
-  for (int y = 0; y < view_.height(); ++y) {
-    for (int x = 0; x < w; ++x) {
-      const std::uint32_t mask =
-          canvas.shaded[static_cast<std::size_t>((y / kTile) * tiles_x_ + x / kTile)];
-      if (mask == 0 && !options_.everywhere) continue;
-      const auto pixel = static_cast<std::size_t>(y * w + x);
-      if (view_.sky(pixel)) continue;
-      active[pixel] = 1;
-      const Vec3& n = view_.normal[pixel];
-      const Vec3 p = view_.point[pixel] + 2e-3f * n;
-      const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ hash32(key));
-      const Rgb ambient = gains.ambient * view_.ambient[pixel];
-      if (!lights_.soft()) {
-        // the sun's shadows are sharp: all samples of the pixel, and no smoothing
-        const float sun = gains.direct[0] * view_.direct[pixel * view_.lights];
-        if ((mask & 2u) != 0 && sun > 0) {
-          int blocked = 0;
-          for (int i = 0; i < view_.samples(); ++i) {
-            const std::size_t s =
-                pixel * static_cast<std::size_t>(view_.samples()) + static_cast<std::size_t>(i);
-            if (view_.depth[s] >= StaticView::kNothing) continue;
-            const Eigen::Vector2f at = sample_offset(i, view_.samples());
-            const Vec3 q = view_.rays().origin() +
-                           view_.depth[s] * view_.rays().direction(x, y, at.x(), at.y()) +
-                           2e-3f * n;
-            const std::uint32_t mine = random + 16 + 4 * static_cast<std::uint32_t>(i);
-            const TowardsLight to =
-                lights_.sample(0, q, to_unit(hash32(mine)), to_unit(hash32(mine + 1)));
-            const float time = (static_cast<float>(i) + to_unit(hash32(mine + 2))) /
-                               static_cast<float>(view_.samples());
-            blocked += people.blocked(q, to.direction, to.distance, time) ? 1 : 0;
-          }
-          if (blocked > 0) {
-            const Rgb kept =
-                (sun * static_cast<float>(blocked) / static_cast<float>(view_.samples())) *
-                lights_.colour(0);
-            out[pixel] -= view_.albedo[pixel].cwiseProduct(kept) / kPi;
-          }
-        }
-      }
+  Shade shade{.people = people,
+              .gains = gains,
+              .key = hash32(key),
+              .lost = std::vector<Rgbw>(view_.pixels(), Rgbw::Zero())};
+  std::vector<std::uint8_t> darker(grid_.count(), 0);
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    const std::uint32_t mask = canvas.shaded[tile];
+    if (mask == 0 && !options_.everywhere) continue;
+    grid_.each_pixel(tile, [&](int x, int y, std::size_t pixel) {
+      if (view_.sky(pixel)) return;
       if (options_.everywhere) {
-        lost[pixel] += lost_to_others(people, p, n, mask, random, pixel);
+        const Vec3& n = view_.normal[pixel];
+        shade.lost[pixel].head<3>() +=
+            lost_to_others(people, view_.point[pixel] + 2e-3f * n, n, mask,
+                           hash32(static_cast<std::uint32_t>(pixel) ^ shade.key), pixel);
+        if (!shade.lost[pixel].isZero(0)) darker[tile] = 1;
       }
-      float total = 0;
-      weight[0] = (mask & 1u) != 0 ? luminance(ambient) : 0.0f;
-      total = weight[0];
-      for (std::size_t l = 0; l < view_.lights; ++l) {
-        const bool wanted = lights_.soft() && (mask & (2u << l)) != 0;
-        weight[l + 1] = wanted ? gains.direct[l] * view_.direct[pixel * view_.lights + l] : 0.0f;
-        total += weight[l + 1];
+      // the sun's shadows are sharp: all samples of the pixel, and no smoothing
+      if (!lights_.soft() && (mask & 2u) != 0) {
+        cast_sun(people, gains.direct[0], shade.key, x, y, pixel, canvas.image);
       }
-      if (total <= 0) continue;
-      // neighbours choose different lights: the ranks of a 4 x 4 square, turned at random
-      static constexpr std::array<std::uint8_t, 16> kRank = {0, 8,  2, 10, 12, 4, 14, 6,
-                                                             3, 11, 1, 9,  15, 7, 13, 5};
-      const float rank =
-          (static_cast<float>(kRank[static_cast<std::size_t>((y & 3) * 4 + (x & 3))]) +
-           to_unit(random)) /
-          16;
-      float choice = rank * total;
-      std::size_t which = 0;
-      while (which < view_.lights && (choice >= weight[which] || weight[which] <= 0)) {
-        choice -= weight[which];
-        ++which;
-      }
-      if (weight[which] <= 0) continue;
-      const float time = to_unit(hash32(random + 1));
-      const float a = to_unit(hash32(random + 2)), b = to_unit(hash32(random + 3));
-      if (which == 0) {
-        const auto hit = people.trace(p, cosine_direction(n, a, b), kContactReach, time);
-        if (hit) {
-          const float near = 1 - hit->distance * hit->distance / (kContactReach * kContactReach);
-          lost[pixel] += ambient * (0.85f * near * total / weight[0]);
-        }
-      } else {
-        const TowardsLight to = lights_.sample(which - 1, p, a, b);
-        if (people.blocked(p, to.direction, to.distance, time)) {
-          lost[pixel] += total * lights_.colour(which - 1);
-        }
-      }
-    }
+      if (is_scout(x, y)) aim_at_light(mask, x, y, pixel, shade);
+    });
+    if (shoot(shade)) darker[tile] = 1;
   }
-  smooth_over_surface(view_, active, 3, lost);
-  for (std::size_t pixel = 0; pixel < view_.pixels(); ++pixel) {
-    if (active[pixel] == 0) continue;
-    out[pixel] = (out[pixel] - view_.albedo[pixel].cwiseProduct(lost[pixel]) / kPi).cwiseMax(0.0f);
+  // all the other pixels, but only where a quarter of them has found a shadow: what stays hidden
+  // from so many rays takes less than a hundredth of the light
+  const std::vector<std::uint8_t> nearby = grid_.with_neighbours(darker);
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    if (nearby[tile] == 0 || canvas.shaded[tile] == 0) continue;
+    grid_.each_pixel(tile, [&](int x, int y, std::size_t pixel) {
+      if (view_.sky(pixel) || is_scout(x, y)) return;
+      aim_at_light(canvas.shaded[tile], x, y, pixel, shade);
+    });
+    shoot(shade);
   }
-}
-
-BodyPoint body_point(const MovingBody& body, const RayHit& hit, const Vec3& origin,
-                     const Vec3& direction, float time) {
-  BodyPoint out;
-  const auto& t = body.mesh->triangles()[hit.triangle];
-  const float w = 1 - hit.u - hit.v;
-  const auto mean = [&](const std::vector<Vec3>& of) {
-    return Vec3(w * of[t[0]] + hit.u * of[t[1]] + hit.v * of[t[2]]);
-  };
-  out.surface = &body.mesh->surface(hit.triangle, hit.u, hit.v);
-  const float c = std::cos(body.heading_rad), s = std::sin(body.heading_rad);
-  const Vec3& bump = out.surface->bump;
-  out.normal =
-      ((1 - time) * mean(body.open_normals) + time * mean(body.close_normals)).normalized();
-  out.normal += Vec3(c * bump.x() - s * bump.y(), s * bump.x() + c * bump.y(), bump.z());
-  out.normal.normalize();
-  out.place = origin + hit.distance * direction;
-  return out;
-}
-
-void ViewRenderer::mirror_people(const PeopleScene& people, const LightGains& gains,
-                                 std::uint32_t key, Canvas& canvas) const {
-  const int w = view_.width();
-  std::vector<Rgb> change(view_.pixels(), Rgb::Zero());
-  std::vector<std::uint8_t> active(view_.pixels(), 0);
-  for (int y = 0; y < view_.height(); ++y) {
-    for (int x = 0; x < w; ++x) {
-      if (canvas.mirrors[static_cast<std::size_t>((y / kTile) * tiles_x_ + x / kTile)] == 0)
-        continue;
-      const auto pixel = static_cast<std::size_t>(y * w + x);
-      if (view_.mirror[pixel] <= 0) continue;
-      active[pixel] = 1;
-      const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ hash32(key));
-      const Vec3& n = view_.normal[pixel];
-      const Vec3 jitter(to_unit(random) - 0.5f, to_unit(hash32(random + 1)) - 0.5f,
-                        to_unit(hash32(random + 2)) - 0.5f);
-      const Vec3 micro = (n + 2 * view_.roughness[pixel] * jitter).normalized();
-      const Vec3 view = (view_.point[pixel] - view_.rays().origin()).normalized();
-      Vec3 d = view - 2 * view.dot(micro) * micro;
-      if (d.dot(n) < 0.02f) d = view - 2 * view.dot(n) * n;
-      const Vec3 p = view_.point[pixel] + 2e-3f * n;
-      const float time = to_unit(hash32(random + 3));
-      const auto hit = people.trace(p, d, kMirrorReach, time);
-      if (!hit) continue;
-      const BodyPoint at = body_point(people.bodies()[hit->geometry], *hit, p, d, time);
-      Rgb light = gains.ambient * ambient_.irradiance(at.place, at.normal);
-      for (std::size_t l = 0; l < view_.lights; ++l) {
-        light += gains.direct[l] * lights_.irradiance(l, at.place, at.normal) * lights_.colour(l);
-      }
-      change[pixel] = view_.mirror[pixel] * at.surface->albedo.cwiseProduct(light) / kPi -
-                      gains.ambient * view_.mirrored[pixel];
-    }
-  }
-  smooth_over_surface(view_, active, 2, change);
+  const std::vector<std::uint8_t> changed = view_.smoother().smooth(kSmoothing, nearby, shade.lost);
   auto* out = canvas.image.ptr<Vec3>();
-  for (std::size_t pixel = 0; pixel < view_.pixels(); ++pixel) {
-    if (active[pixel] != 0) out[pixel] = (out[pixel] + change[pixel]).cwiseMax(0.0f);
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    if (changed[tile] == 0) continue;
+    grid_.each_pixel(tile, [&](int, int, std::size_t pixel) {
+      const Rgb kept = view_.albedo[pixel].cwiseProduct(shade.lost[pixel].head<3>()) / kPi;
+      out[pixel] = (out[pixel] - kept).cwiseMax(0.0f);
+    });
   }
 }
 

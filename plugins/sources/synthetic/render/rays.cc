@@ -1,5 +1,6 @@
 #include "plugins/sources/synthetic/render/rays.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -11,6 +12,9 @@ namespace plaza::synthetic {
 namespace {
 
 constexpr float kNear = 1e-3f;
+
+// Embree takes rays in bunches of up to this many.
+constexpr std::size_t kBunch = 64;
 
 void fill(RTCRay& ray, const Vec3& origin, const Vec3& direction, float reach, float time) {
   ray.org_x = origin.x();
@@ -25,6 +29,23 @@ void fill(RTCRay& ray, const Vec3& origin, const Vec3& direction, float reach, f
   ray.mask = ~0u;
   ray.id = 0;
   ray.flags = 0;
+}
+
+void miss(RTCHit& hit) {
+  hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+std::optional<RayHit> hit_of(const RTCRayHit& traced) {
+  if (traced.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  RayHit hit;
+  hit.distance = traced.ray.tfar;
+  hit.geometry = traced.hit.geomID;
+  hit.triangle = traced.hit.primID;
+  hit.u = traced.hit.u;
+  hit.v = traced.hit.v;
+  hit.normal = Vec3(traced.hit.Ng_x, traced.hit.Ng_y, traced.hit.Ng_z).normalized();
+  return hit;
 }
 
 /// Copies into Embree's own buffers: it wants 16 readable bytes behind the last vertex.
@@ -64,20 +85,11 @@ std::optional<RayHit> RayScene::trace(const Vec3& origin, const Vec3& direction,
                                       float time) const {
   RTCRayHit query;
   fill(query.ray, origin, direction, reach, time);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  miss(query.hit);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene_, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  RayHit hit;
-  hit.distance = query.ray.tfar;
-  hit.geometry = query.hit.geomID;
-  hit.triangle = query.hit.primID;
-  hit.u = query.hit.u;
-  hit.v = query.hit.v;
-  hit.normal = Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
-  return hit;
+  return hit_of(query);
 }
 
 bool RayScene::blocked(const Vec3& origin, const Vec3& direction, float reach, float time) const {
@@ -87,6 +99,40 @@ bool RayScene::blocked(const Vec3& origin, const Vec3& direction, float reach, f
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene_, &context, &ray);
   return ray.tfar < 0;
+}
+
+void RayScene::trace(std::span<const RayQuery> queries,
+                     std::span<std::optional<RayHit>> hits) const {
+  std::array<RTCRayHit, kBunch> rays;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < queries.size(); first += kBunch) {
+    const std::size_t count = std::min(kBunch, queries.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const RayQuery& q = queries[first + i];
+      fill(rays[i].ray, q.origin, q.direction, q.reach, q.time);
+      miss(rays[i].hit);
+    }
+    rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(count), sizeof(RTCRayHit));
+    for (std::size_t i = 0; i < count; ++i) hits[first + i] = hit_of(rays[i]);
+  }
+}
+
+void RayScene::blocked(std::span<const RayQuery> queries, std::span<std::uint8_t> blocked) const {
+  std::array<RTCRay, kBunch> rays;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < queries.size(); first += kBunch) {
+    const std::size_t count = std::min(kBunch, queries.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const RayQuery& q = queries[first + i];
+      fill(rays[i], q.origin, q.direction, q.reach - kNear, q.time);
+    }
+    rtcOccluded1M(scene_, &context, rays.data(), static_cast<unsigned>(count), sizeof(RTCRay));
+    for (std::size_t i = 0; i < count; ++i) blocked[first + i] = rays[i].tfar < 0 ? 1 : 0;
+  }
 }
 
 StageScene::StageScene(std::shared_ptr<const RayDevice> device,

@@ -37,6 +37,13 @@ struct RayHit {
   Vec3 normal = Vec3::Zero();  ///< of the triangle, unit length, either side
 };
 
+/// A ray to be shot.
+struct RayQuery {
+  Vec3 origin, direction;  ///< direction: unit length
+  float reach = 0;         ///< metres
+  float time = 0;          ///< in [0, 1], the moment within the exposure
+};
+
 /// Triangles that rays are shot at. Any number of threads may shoot at once.
 class RayScene {
  public:
@@ -51,6 +58,10 @@ class RayScene {
                               float time = 0) const;
   /// Whether anything is in the way within (1 mm, reach).
   bool blocked(const Vec3& origin, const Vec3& direction, float reach, float time = 0) const;
+  /// The same for rays that go much the same way, several at once. Results may depend in their last
+  /// bits on which rays are asked for together. `hits`, `blocked`: one for each query.
+  void trace(std::span<const RayQuery> queries, std::span<std::optional<RayHit>> hits) const;
+  void blocked(std::span<const RayQuery> queries, std::span<std::uint8_t> blocked) const;
 
  protected:
   RTCScene scene() const { return scene_; }
@@ -71,13 +82,14 @@ class StageScene final : public RayScene {
   std::shared_ptr<const StageModel> model_;
 };
 
-/// A person in one exposure: positions and normals of its mesh when the shutter opens and closes.
+/// A person in one exposure: positions of its mesh when the shutter opens and closes, normals in
+/// the middle of the exposure.
 struct MovingBody {
   std::size_t person = 0;
   std::shared_ptr<const BodyMesh> mesh;
-  float heading_rad = 0;
+  Eigen::Vector2f heading{1, 0};  ///< unit
   std::vector<Vec3> open, close;
-  std::vector<Vec3> open_normals, close_normals;
+  std::vector<Vec3> normals;
 };
 
 /// All people in one exposure, blurred by their motion.

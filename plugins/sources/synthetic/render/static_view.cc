@@ -31,9 +31,8 @@ Rgb lamps_along(const StageModel& model, const Vec3& p, const Vec3& direction, f
   return sum;
 }
 
-}  // namespace
-
-Eigen::Vector2f sample_offset(int i, int n) {
+/// Hammersley's points.
+Eigen::Vector2f offset_of(int i, int n) {
   float radical = 0, scale = 0.5f;
   for (int k = i; k > 0; k /= 2) {
     radical += scale * static_cast<float>(k % 2);
@@ -43,11 +42,14 @@ Eigen::Vector2f sample_offset(int i, int n) {
   return {(static_cast<float>(i) + 0.5f) / count, std::fmod(radical + 0.5f / count, 1.0f)};
 }
 
+}  // namespace
+
 StaticView::StaticView(const PixelRays& rays, const StageScene& stage, const Lights& lights_of,
                        const AmbientField& field, int samples, std::uint32_t seed)
     : lights(lights_of.count()), rays_(rays), samples_(samples) {
   const std::size_t count = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
   const auto n = static_cast<std::size_t>(samples);
+  for (int i = 0; i < samples; ++i) offsets_.push_back(offset_of(i, samples));
   depth.assign(count * n, kNothing);
   sample_albedo_.assign(count * n, Rgb::Zero());
   sample_part_.assign(count * n, ~0u);
@@ -61,6 +63,7 @@ StaticView::StaticView(const PixelRays& rays, const StageScene& stage, const Lig
   mirror.assign(count, 0.0f);
   roughness.assign(count, 0.0f);
   trace_samples(stage);
+  smoother_ = std::make_unique<const SurfaceSmoother>(*this);
   light(stage, lights_of, field, seed);
   blend_edges();
   sample_albedo_ = {};
@@ -76,7 +79,7 @@ void StaticView::trace_samples(const StageScene& stage) {
       for (int i = 0; i < samples_; ++i) {
         const std::size_t at =
             pixel * static_cast<std::size_t>(samples_) + static_cast<std::size_t>(i);
-        const Eigen::Vector2f offset = sample_offset(i, samples_);
+        const Eigen::Vector2f& offset = sample_offset(i);
         const Vec3 d = rays_.direction(x, y, offset.x(), offset.y());
         if (d.isZero()) continue;
         const auto hit = stage.trace(rays_.origin(), d, kNothing);
@@ -109,11 +112,9 @@ void StaticView::trace_samples(const StageScene& stage) {
 
 void StaticView::light(const StageScene& stage, const Lights& lights_of, const AmbientField& field,
                        std::uint32_t seed) {
-  std::vector<Rgb> gleam(pixels(), Rgb::Zero());
-  std::vector<std::uint8_t> everywhere(pixels(), 1);
-  std::vector<Rgb> shadow(pixels(), Rgb::Zero());
+  std::vector<Rgbw> reflected(pixels(), Rgbw::Zero()), gleam(reflected), shadow(reflected);
   for (std::size_t l = 0; l < lights; ++l) {
-    std::fill(shadow.begin(), shadow.end(), Rgb::Zero());
+    std::fill(shadow.begin(), shadow.end(), Rgbw::Zero());
     for (std::size_t pixel = 0; pixel < pixels(); ++pixel) {
       if (sky(pixel)) continue;
       const Vec3 p = point[pixel] + 1e-3f * normal[pixel];
@@ -127,11 +128,11 @@ void StaticView::light(const StageScene& stage, const Lights& lights_of, const A
         const TowardsLight to = lights_of.sample(l, p, a, to_unit(hash32(key + 2 * k + 1)));
         if (!stage.blocked(p, to.direction, to.distance)) open += 1.0f / kShadowRays;
       }
-      shadow[pixel] = Rgb::Constant(1 - open);
+      shadow[pixel].w() = 1 - open;
     }
-    if (lights_of.soft()) smooth_over_surface(*this, everywhere, 2, shadow);
+    if (lights_of.soft()) smoother_->smooth(2, shadow);
     for (std::size_t pixel = 0; pixel < pixels(); ++pixel) {
-      direct[pixel * lights + l] *= 1 - shadow[pixel].x();
+      direct[pixel * lights + l] *= 1 - shadow[pixel].w();
     }
   }
   for (std::size_t pixel = 0; pixel < pixels(); ++pixel) {
@@ -142,7 +143,7 @@ void StaticView::light(const StageScene& stage, const Lights& lights_of, const A
     for (std::uint32_t k = 0; k < kAmbientRays; ++k) {
       const float a = (static_cast<float>(k) + to_unit(hash32(key + 8 * k))) / kAmbientRays;
       const Vec3 d = cosine_direction(n, a, to_unit(hash32(key + 8 * k + 1)));
-      ambient[pixel] += field.incoming(p, d, key + 8 * k + 2) * (kPi / kAmbientRays);
+      reflected[pixel].head<3>() += field.incoming(p, d, key + 8 * k + 2) * (kPi / kAmbientRays);
     }
     if (mirror[pixel] <= 0) continue;
     const Vec3 view = (point[pixel] - rays_.origin()).normalized();
@@ -154,16 +155,19 @@ void StaticView::light(const StageScene& stage, const Lights& lights_of, const A
       Vec3 d = view - 2 * view.dot(micro) * micro;
       if (d.dot(n) < 0.02f) d = view - 2 * view.dot(n) * n;
       const auto hit = stage.trace(p, d, kNothing);
-      gleam[pixel] += (mirror[pixel] / kMirrorRays) *
-                      (field.incoming(p, d, mine + 3) +
-                       lamps_along(stage.model(), p, d, hit ? hit->distance : kNothing));
+      gleam[pixel].head<3>() += (mirror[pixel] / kMirrorRays) *
+                                (field.incoming(p, d, mine + 3) +
+                                 lamps_along(stage.model(), p, d, hit ? hit->distance : kNothing));
     }
   }
-  smooth_over_surface(*this, everywhere, 6, ambient);  // twice: close to a bell
-  smooth_over_surface(*this, everywhere, 6, ambient);
-  smooth_over_surface(*this, everywhere, 3, gleam);
-  smooth_over_surface(*this, everywhere, 3, gleam);
-  for (std::size_t pixel = 0; pixel < pixels(); ++pixel) mirrored[pixel] += gleam[pixel];
+  for (int twice = 0; twice < 2; ++twice) {  // close to a bell
+    smoother_->smooth(6, reflected);
+    smoother_->smooth(3, gleam);
+  }
+  for (std::size_t pixel = 0; pixel < pixels(); ++pixel) {
+    ambient[pixel] = reflected[pixel].head<3>();
+    mirrored[pixel] += gleam[pixel].head<3>();
+  }
 }
 
 /// At the border between two things each sample is lit as its own thing is nearby.
@@ -204,37 +208,6 @@ void StaticView::blend_edges() {
       albedo[pixel] = sum.cwiseQuotient(own.cwiseMax(1e-6f)) / static_cast<float>(n);
     }
   }
-}
-
-void smooth_over_surface(const StaticView& view, const std::vector<std::uint8_t>& active,
-                         int radius, std::vector<Rgb>& field) {
-  const int w = view.width(), h = view.height();
-  std::vector<Rgb> rows(field.size(), Rgb::Zero());
-  const auto pass = [&](const std::vector<Rgb>& in, std::vector<Rgb>& out, bool across) {
-    for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) {
-        const std::size_t at =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-        if (active[at] == 0 || view.sky(at)) {
-          out[at] = in[at];
-          continue;
-        }
-        const int place = across ? x : y, end = across ? w : h;
-        const auto stride = static_cast<std::ptrdiff_t>(across ? 1 : w);
-        Rgb sum = Rgb::Zero();
-        int count = 0;
-        for (int k = std::max(-radius, -place); k <= std::min(radius, end - 1 - place); ++k) {
-          const auto other = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + k * stride);
-          if (k != 0 && !view.same_surface(at, other)) continue;
-          sum += in[other];
-          ++count;
-        }
-        out[at] = sum / static_cast<float>(count);
-      }
-    }
-  };
-  pass(field, rows, true);
-  pass(rows, field, false);
 }
 
 }  // namespace plaza::synthetic

@@ -7,11 +7,9 @@
 #include "plugins/sources/synthetic/render/lighting.h"
 #include "plugins/sources/synthetic/render/pixel_rays.h"
 #include "plugins/sources/synthetic/render/rays.h"
+#include "plugins/sources/synthetic/render/surface_smoother.h"
 
 namespace plaza::synthetic {
-
-/// Position of sample i of n within a pixel, both coordinates in [0, 1) from its upper left corner.
-Eigen::Vector2f sample_offset(int i, int n);
 
 /// What one camera sees of the stage without people, traced once. Arrays by pixel, row by row.
 class StaticView {
@@ -23,6 +21,10 @@ class StaticView {
   int width() const { return rays_.width(); }
   int height() const { return rays_.height(); }
   int samples() const { return samples_; }
+  /// Place of a sample within its pixel, both coordinates in [0, 1) from the upper left corner.
+  const Eigen::Vector2f& sample_offset(int sample) const {
+    return offsets_[static_cast<std::size_t>(sample)];
+  }
   const PixelRays& rays() const { return rays_; }
   std::size_t pixels() const { return point.size(); }
 
@@ -38,6 +40,8 @@ class StaticView {
   std::vector<float> mirror;  ///< Fresnel reflectance towards the camera
   std::vector<float> roughness;
   std::size_t lights = 0;
+  /// By the surfaces seen here.
+  const SurfaceSmoother& smoother() const { return *smoother_; }
 
   static constexpr float kNothing = 1e4f;
   bool sky(std::size_t pixel) const { return normal[pixel].isZero(); }
@@ -55,13 +59,10 @@ class StaticView {
 
   const PixelRays& rays_;
   int samples_;
+  std::vector<Eigen::Vector2f> offsets_;
+  std::unique_ptr<const SurfaceSmoother> smoother_;
   std::vector<Rgb> sample_albedo_;  // while the view is made
   std::vector<std::uint32_t> sample_part_;
 };
-
-/// Averages `field` over windows of (2 radius + 1)^2 pixels of the same surface. Where `active` is
-/// zero the field is known to be zero and stays as it is.
-void smooth_over_surface(const StaticView& view, const std::vector<std::uint8_t>& active,
-                         int radius, std::vector<Rgb>& field);
 
 }  // namespace plaza::synthetic

@@ -10,7 +10,6 @@
 
 namespace plaza::synthetic {
 
-inline constexpr int kTile = 8;
 inline constexpr float kPi = std::numbers::pi_v<float>;
 inline constexpr float kContactReach = 1.1f;  // metres over which a body darkens what is near
 inline constexpr float kMirrorReach = 3.0f;   // metres over which a floor mirrors a body
@@ -41,6 +40,20 @@ struct BodyPoint {
 };
 
 BodyPoint body_point(const MovingBody& body, const RayHit& hit, const Vec3& origin,
-                     const Vec3& direction, float time);
+                     const Vec3& direction);
+
+/// One pixel of each square of 2 x 2, at another place in each of four neighbouring squares: those
+/// that look where not all have to.
+inline bool is_scout(int x, int y) {
+  return (x & 1) == ((y >> 1) & 1) && (y & 1) == ((x >> 1) & 1);
+}
+
+/// In [0, 1), `jitter` too; over any square of 4 x 4 pixels each sixteenth once.
+inline float rank_in_square(int x, int y, float jitter) {
+  constexpr std::array<std::uint8_t, 16> kRank = {0, 8,  2, 10, 12, 4, 14, 6,
+                                                  3, 11, 1, 9,  15, 7, 13, 5};
+  const auto rank = kRank[static_cast<std::size_t>((y & 3) * 4 + (x & 3))];
+  return (static_cast<float>(rank) + jitter) / 16;
+}
 
 }  // namespace plaza::synthetic

@@ -54,24 +54,18 @@ ViewRenderer::ViewRenderer(const StaticView& view, const StageScene& stage, cons
       lights_(lights),
       ambient_(ambient),
       options_(options),
-      tiles_x_((view.width() + kTile - 1) / kTile),
-      tiles_y_((view.height() + kTile - 1) / kTile) {
+      grid_(view.width(), view.height()) {
   if (view.lights > kMostLights) throw InternalError("a stage has too many lamps");
-  for (int ty = 0; ty < tiles_y_; ++ty) {
-    for (int tx = 0; tx < tiles_x_; ++tx) {
-      Eigen::AlignedBox3f box;
-      std::uint8_t glossy = 0;
-      for (int y = ty * kTile; y < std::min(view.height(), (ty + 1) * kTile); ++y) {
-        for (int x = tx * kTile; x < std::min(view.width(), (tx + 1) * kTile); ++x) {
-          const auto pixel = static_cast<std::size_t>(y * view.width() + x);
-          if (view.sky(pixel)) continue;
-          box.extend(view.point[pixel]);
-          if (view.mirror[pixel] > 0) glossy = 1;
-        }
-      }
-      tile_balls_.push_back(box.isEmpty() ? Ball(0, 0, 0, -1) : ball_of(box));
-      tile_glossy_.push_back(glossy);
-    }
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    Eigen::AlignedBox3f box;
+    std::uint8_t glossy = 0;
+    grid_.each_pixel(tile, [&](int, int, std::size_t pixel) {
+      if (view.sky(pixel)) return;
+      box.extend(view.point[pixel]);
+      if (view.mirror[pixel] > 0) glossy = 1;
+    });
+    tile_balls_.push_back(box.isEmpty() ? Ball(0, 0, 0, -1) : ball_of(box));
+    tile_glossy_.push_back(glossy);
   }
 }
 
@@ -148,11 +142,11 @@ void ViewRenderer::choose_tiles(const PeopleScene& people, Canvas& canvas) const
         return std::clamp(static_cast<int>(std::floor(std::clamp(px, -1e6, 1e6) / kTile)), -1,
                           last + 1);
       };
-      for (int ty = std::max(0, tile(seen.min().y() - 1.5, tiles_y_));
-           ty <= std::min(tiles_y_ - 1, tile(seen.max().y() + 1.5, tiles_y_)); ++ty) {
-        for (int tx = std::max(0, tile(seen.min().x() - 1.5, tiles_x_));
-             tx <= std::min(tiles_x_ - 1, tile(seen.max().x() + 1.5, tiles_x_)); ++tx) {
-          canvas.covered[static_cast<std::size_t>(ty * tiles_x_ + tx)] = 1;
+      for (int ty = std::max(0, tile(seen.min().y() - 1.5, grid_.down));
+           ty <= std::min(grid_.down - 1, tile(seen.max().y() + 1.5, grid_.down)); ++ty) {
+        for (int tx = std::max(0, tile(seen.min().x() - 1.5, grid_.across));
+             tx <= std::min(grid_.across - 1, tile(seen.max().x() + 1.5, grid_.across)); ++tx) {
+          canvas.covered[static_cast<std::size_t>(ty * grid_.across + tx)] = 1;
         }
       }
     }

@@ -36,10 +36,10 @@ class ViewRenderer {
   cv::Mat empty(const LightGains& gains) const;
 
  private:
-  struct Tile;
   struct Canvas;
   struct Cover;
-  struct First;
+  struct Shade;
+  struct Batch;
   void choose_tiles(const PeopleScene& people, Canvas& canvas) const;
   void cast_shadows(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                     Canvas& canvas) const;
@@ -48,9 +48,20 @@ class ViewRenderer {
                      std::uint32_t random, std::size_t pixel) const;
   void mirror_people(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                      Canvas& canvas) const;
-  /// Takes one sample of a pixel.
-  void shade(const PeopleScene& people, const LightGains& gains, std::size_t pixel, int x, int y,
-             int sample, std::uint32_t random, Cover& cover) const;
+  /// Adds the ray that asks for one pixel whether people keep off light, of those that `mask` has.
+  void aim_at_light(std::uint32_t mask, int x, int y, std::size_t pixel, Shade& shade) const;
+  /// Shoots the rays that were added. Whether any light is kept off.
+  bool shoot(Shade& shade) const;
+  void cast_sun(const PeopleScene& people, float gain, std::uint32_t key, int x, int y,
+                std::size_t pixel, cv::Mat& image) const;
+  /// Adds the ray of one sample of a pixel.
+  void aim_at_people(std::size_t pixel, int x, int y, int sample, std::uint32_t random,
+                     Batch& batch) const;
+  /// Shoots the rays that were added and adds up what they met.
+  void take(const PeopleScene& people, const LightGains& gains, Batch& batch,
+            std::vector<Cover>& cover) const;
+  void shade(const PeopleScene& people, const LightGains& gains, const RayQuery& ray,
+             const RayHit& hit, float rank, std::uint32_t random, Cover& cover) const;
   void draw_people(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                    Canvas& canvas) const;
 
@@ -59,7 +70,7 @@ class ViewRenderer {
   const Lights& lights_;
   const AmbientField& ambient_;
   RenderOptions options_;
-  int tiles_x_, tiles_y_;
+  TileGrid grid_;
   std::vector<Eigen::Vector4f> tile_balls_;  // of the points seen in each tile; radius < 0: none
   std::vector<std::uint8_t> tile_glossy_;
 };

@@ -47,7 +47,8 @@ TEST(BodyMesh, StandsOnTheGroundAndIsAsTallAsItsStature) {
     JointRotations joints;
     joints.pelvis_m = {1.0, 2.0, p.ankle_m + p.shin_m + p.thigh_m};
     std::vector<Vec3> at(mesh.vertex_count()), normals(mesh.vertex_count());
-    mesh.pose(place_segments(p, joints), at, normals);
+    mesh.place(place_segments(p, joints), at);
+    mesh.turn(place_segments(p, joints), normals);
     float low = 9, high = -9;
     for (const Vec3& v : at) {
       low = std::min(low, v.z());
@@ -61,7 +62,8 @@ TEST(BodyMesh, StandsOnTheGroundAndIsAsTallAsItsStature) {
 TEST(BodyMesh, NormalsPointOutwards) {
   const BodyMesh mesh = mesh_of(3);
   std::vector<Vec3> at(mesh.vertex_count()), normals(mesh.vertex_count());
-  mesh.pose(mesh.clothes().shape().bind_pose(), at, normals);
+  mesh.place(mesh.clothes().shape().bind_pose(), at);
+  mesh.turn(mesh.clothes().shape().bind_pose(), normals);
   std::size_t agree = 0;
   for (const auto& t : mesh.triangles()) {
     const Vec3 n = (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]);
