@@ -17,7 +17,7 @@ constexpr double kHorizonS = 3.0;         // collisions later than this don't ma
 constexpr double kReactionS = 0.28;       // time constant with which a velocity is taken up
 constexpr double kMaxAcceleration = 2.8;  // m/s^2
 constexpr std::size_t kTicksPerDecision = 4;
-constexpr double kBodyHalfWidth = 0.29;
+constexpr double kBodyHalfWidth = 0.26;
 
 /// Seconds until two discs touch; infinity when they don't.
 double time_to_contact(const Vector2d& offset, const Vector2d& closing, double radius) {

@@ -104,7 +104,7 @@ std::size_t Director::engage(ClothingStyle style) {
   member.bag = random_.chance(0.25);
   cast_.push_back(member);
   Walker walker;
-  walker.space_m = random_.uniform(0.30, 0.38);
+  walker.space_m = random_.uniform(0.27, 0.34);
   crowd_.walkers.push_back(walker);
   orders_.emplace_back();
   return cast_.size() - 1;

@@ -89,6 +89,8 @@ class Director {
   // what scenarios order; orders of one person are done one after the other
   std::size_t engage(ClothingStyle style);
   CastMember& member(std::size_t who) { return cast_[who]; }
+  /// How near a person lets others pass: the radius of its personal space while walking.
+  void set_space(std::size_t who, double space_m) { crowd_.walkers[who].space_m = space_m; }
   void appear(std::size_t who, const Eigen::Vector2d& position_m, double heading_rad);
   void enter(std::size_t who, std::size_t door, double speed_mps);
   void leave(std::size_t who, std::size_t door, double speed_mps);

@@ -100,11 +100,11 @@ class SixTargets final : public Scenario {
   void idle(Director& director, std::size_t who) override {
     Random& random = director.random();
     const double choice = random.unit();
-    if (choice < 0.25 && meet_someone(director, who, 2.0, 4.0)) {
+    if (choice < 0.35 && meet_someone(director, who, 2.0, 4.0)) {
       return;
     }
-    if (choice < 0.65) {
-      cross(director, who, 0.9, 1.4, 0.6);
+    if (choice < 0.7) {
+      cross(director, who, 0.9, 1.4, 0.5);
     } else {
       roam(director, who, 0.8, 1.3, 1.8);
     }

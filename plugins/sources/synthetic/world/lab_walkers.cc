@@ -110,6 +110,9 @@ class FourCrossing final : public Scenario {
  public:
   void begin(Director& director) override {
     spread(director, 4, ClothingStyle::kDark);
+    for (std::size_t who = 0; who < 4; ++who) {
+      director.set_space(who, director.random().uniform(0.22, 0.28));  // they almost touch
+    }
     if (director.random().chance(0.5)) {
       director.member(director.random().index(4)).style = ClothingStyle::kAny;
     }
@@ -117,10 +120,10 @@ class FourCrossing final : public Scenario {
 
   void idle(Director& director, std::size_t who) override {
     Random& random = director.random();
-    if (random.chance(0.12) && meet_someone(director, who, 1.0, 2.0)) {
+    if (random.chance(0.3) && meet_someone(director, who, 1.0, 2.0)) {
       return;
     }
-    cross(director, who, 0.9, 1.45, 0.6);
+    cross(director, who, 0.9, 1.45, 0.25);
     if (random.chance(0.2)) {
       director.stand(who, random.uniform(0.2, 1.0));
     }
