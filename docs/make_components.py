@@ -164,6 +164,11 @@ def section(component):
             ["metric", "unit", "better", "meaning"],
             [[f"`{m['section']}.{m['name']}`", m["unit"], "" if m["better"] == "neither" else m["better"], m["meaning"]]
              for m in component["metrics"]])
+    if component["features"]:
+        text += "\n" + table(
+            ["feature", "", "meaning"],
+            [[f"`{f['name']}`", "" if f["kept"] else "not kept between runs", f["meaning"]]
+             for f in component["features"]])
     library = pathlib.Path(component["library"]).name.removesuffix(".so")
     return text + f"\nLibrary: `{library}`\n"
 

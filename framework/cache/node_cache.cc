@@ -35,8 +35,11 @@ void add_files(const fs::path& folder, const std::string& extension, bool learne
 
 }  // namespace
 
-NodeCache::NodeCache(fs::path folder, std::uintmax_t limit_bytes)
-    : folder_(std::move(folder)), nodes_(folder_ / "nodes"), limit_bytes_(limit_bytes) {}
+NodeCache::NodeCache(fs::path folder, std::uintmax_t limit_bytes, FeatureLoaders loaders)
+    : folder_(std::move(folder)),
+      nodes_(folder_ / "nodes"),
+      limit_bytes_(limit_bytes),
+      loaders_(std::move(loaders)) {}
 
 fs::path NodeCache::file_of(std::string_view key) const {
   Hash hash;
@@ -45,7 +48,7 @@ fs::path NodeCache::file_of(std::string_view key) const {
 }
 
 std::unique_ptr<EntryReader> NodeCache::open(std::string_view key) const {
-  return EntryReader::open(file_of(key), key);
+  return EntryReader::open(file_of(key), key, loaders_);
 }
 
 std::unique_ptr<EntryWriter> NodeCache::create(std::string_view key) const {

@@ -28,7 +28,8 @@ struct CachedFile {
 class NodeCache {
  public:
   /// Entries stand in FOLDER/nodes, next to learned models. `limit_bytes` is for both together.
-  NodeCache(std::filesystem::path folder, std::uintmax_t limit_bytes);
+  /// `loaders` read the features of what is kept.
+  NodeCache(std::filesystem::path folder, std::uintmax_t limit_bytes, FeatureLoaders loaders = {});
 
   /// The entry under `key`, or null. What is damaged is not used.
   std::unique_ptr<EntryReader> open(std::string_view key) const;
@@ -37,6 +38,7 @@ class NodeCache {
   /// The right to compute `key`; nothing while another process has it.
   std::optional<FileLock> try_lock(std::string_view key) const;
   std::uintmax_t limit_bytes() const { return limit_bytes_; }
+  const FeatureLoaders& loaders() const { return loaders_; }
 
   /// Everything in the cache, the most recently used first.
   std::vector<CachedFile> list() const;
@@ -53,6 +55,7 @@ class NodeCache {
   std::filesystem::path folder_;
   std::filesystem::path nodes_;
   std::uintmax_t limit_bytes_;
+  FeatureLoaders loaders_;
 };
 
 /// 20 GB, or half of what the disk of `folder` has free when that is less.

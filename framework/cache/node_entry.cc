@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kMagic = "PLAZANOD";
-constexpr std::uint64_t kLayout = 1;
+constexpr std::uint64_t kLayout = 2;
 constexpr std::size_t kWord = 8;
 
 std::uint64_t hash_of(std::string_view bytes) {
@@ -132,9 +132,10 @@ EntryReader::~EntryReader() {
 }
 
 std::unique_ptr<EntryReader> EntryReader::open(const std::filesystem::path& file,
-                                               std::string_view key) {
+                                               std::string_view key, FeatureLoaders loaders) {
   std::unique_ptr<EntryReader> reader(new EntryReader);
   reader->file_ = file;
+  reader->loaders_ = std::move(loaders);
   try {
     if (!reader->read_index(key, false)) return nullptr;
   } catch (const DamagedEntry&) {
@@ -215,7 +216,7 @@ PayloadPtr EntryReader::record(std::size_t index) const {
     throw DamagedEntry(file_.string(), "the entry is damaged");
   }
   if (content.empty()) return nullptr;
-  return decode_payload(info_.port, content, file_.string());
+  return decode_payload(info_.port, content, loaders_, file_.string());
 }
 
 PayloadPtr EntryReader::payload(std::int64_t frame) const {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/cache/feature_codec.h"
 #include "plaza/data/payload.h"
 
 namespace plaza {
@@ -62,7 +63,9 @@ class EntryWriter {
 class EntryReader {
  public:
   /// Nothing when there is no whole entry of this key. Payloads are checked when they are read.
-  static std::unique_ptr<EntryReader> open(const std::filesystem::path& file, std::string_view key);
+  /// `loaders` read features.
+  static std::unique_ptr<EntryReader> open(const std::filesystem::path& file, std::string_view key,
+                                           FeatureLoaders loaders);
   /// The information of whatever entry the file holds; nothing where it is none.
   static std::optional<EntryInfo> look(const std::filesystem::path& file);
   ~EntryReader();
@@ -86,6 +89,7 @@ class EntryReader {
   std::uint64_t size_ = 0;
   std::vector<std::uint64_t> places_;  ///< of the records, and where the last one ends
   EntryInfo info_;
+  FeatureLoaders loaders_;
 };
 
 }  // namespace plaza

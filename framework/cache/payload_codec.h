@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "framework/cache/feature_codec.h"
 #include "plaza/data/payload.h"
 
 namespace plaza {
@@ -13,11 +14,12 @@ namespace plaza {
 /// Evidence can't: what is in it is its modality's own business.
 bool can_keep(std::string_view port);
 
-/// The payload as bytes; nothing where something in it can't be kept (features that observations or
-/// tracklets carry).
-std::optional<std::string> encode_payload(const Payload& payload);
+/// The payload as bytes; nothing where something in it can't be kept: features that observations or
+/// tracklets carry and that `loaders` can't read back.
+std::optional<std::string> encode_payload(const Payload& payload, const FeatureLoaders& loaders);
 
 /// The payload again. Throws DamagedEntry, naming `file`, for bytes that are none.
-PayloadPtr decode_payload(std::string_view port, std::string_view bytes, const std::string& file);
+PayloadPtr decode_payload(std::string_view port, std::string_view bytes,
+                          const FeatureLoaders& loaders, const std::string& file);
 
 }  // namespace plaza

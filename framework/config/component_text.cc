@@ -152,6 +152,14 @@ std::string component_text(const ComponentEntry& entry) {
   if (!entry.library.empty()) out += "  Library: " + entry.library.string() + "\n";
   out += ports_text("Inputs", d.inputs, true);
   out += ports_text("Outputs", d.outputs, false);
+  if (!d.features.empty()) {
+    std::vector<std::vector<std::string>> rows = {{"name", "", "meaning"}};
+    for (const FeatureSpec& f : d.features) {
+      rows.push_back({f.name, f.load == nullptr ? "not kept between runs" : "", f.meaning});
+    }
+    const std::string text = table(rows);
+    out += "\nFeatures\n" + text.substr(text.find('\n') + 1);
+  }
   if (!d.parameters.empty()) {
     std::vector<std::vector<std::string>> rows = {
         {"name", "type", "unit", "default", "range", "meaning", "source"}};
@@ -179,8 +187,13 @@ json component_json(const ComponentEntry& entry) {
               {"inputs", ports_json(d.inputs)},
               {"outputs", ports_json(d.outputs)},
               {"parameters", json::array()},
+              {"features", json::array()},
               {"metrics", json::array()}};
   for (const ParameterSpec& spec : d.parameters) out["parameters"].push_back(parameter_json(spec));
+  for (const FeatureSpec& f : d.features) {
+    out["features"].push_back(
+        {{"name", f.name}, {"meaning", f.meaning}, {"kept", f.load != nullptr}});
+  }
   for (const MetricSpec& m : d.metrics) {
     constexpr std::array<std::string_view, 3> kBetter = {"higher", "lower", "neither"};
     out["metrics"].push_back({{"section", m.section},

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "framework/cache/payload_codec.h"
+#include "framework/execution/guard.h"
 #include "framework/execution/stop.h"
 #include "plaza/core/error.h"
 
@@ -181,21 +182,33 @@ void Reuse::decline(Recording& recording, const std::vector<NodeTiming>& timings
   }
 }
 
+/// The payload's bytes; none of them when nothing was given, nothing when they can't be had.
+std::optional<std::string> Reuse::encode(const Place& place, const PayloadPtr& payload) const {
+  if (!payload) return std::string();
+  return guarded(plan_->nodes[place.first].name, std::nullopt,
+                 [&] { return encode_payload(*payload, cache_.loaders()); });
+}
+
 void Reuse::record(const FrameState& state, const std::vector<NodeTiming>& timings) {
   for (Recording& recording : recordings_) {
     if (!recording.writer) continue;
     const auto [node, output] = recording.place;
     const PayloadPtr& payload =
         state.slots[static_cast<std::size_t>(plan_->nodes[node].outputs[output])];
-    std::optional<std::string> bytes = payload ? encode_payload(*payload) : std::string();
+    const std::optional<std::string> bytes = encode(recording.place, payload);
     if (!bytes) {  // something in it can't be kept, now or ever
       decline(recording, timings);
       continue;
     }
-    if (payload && recording.frames < kMeasuredFrames) {
-      const auto start = SteadyClock::now();
-      decode_payload(payload->port(), *bytes, "a payload of this run");
-      recording.read_s += seconds_since(start);
+    try {
+      if (payload && recording.frames < kMeasuredFrames) {
+        const auto start = SteadyClock::now();
+        decode_payload(payload->port(), *bytes, cache_.loaders(), "what is read back");
+        recording.read_s += seconds_since(start);
+      }
+    } catch (const DamagedEntry& error) {  // a feature that does not take back what it saved
+      give_up(recording, error.what());
+      continue;
     }
     try {
       recording.writer->add(*bytes);
@@ -219,7 +232,7 @@ void Reuse::record_flush(const FrameState& state) {
     const auto [node, output] = recording.place;
     const PayloadPtr& payload =
         state.slots[static_cast<std::size_t>(plan_->nodes[node].outputs[output])];
-    const auto bytes = payload ? encode_payload(*payload) : std::string();
+    const auto bytes = encode(recording.place, payload);
     try {
       if (!bytes) throw UserError("something in it can't be kept");
       recording.writer->add(*bytes);

@@ -72,6 +72,7 @@ class Reuse {
                     const std::vector<NodeTiming>& timings) const;
   /// Ends a recording that is not worth it; an entry says so.
   void decline(Recording& recording, const std::vector<NodeTiming>& timings);
+  std::optional<std::string> encode(const Place& place, const PayloadPtr& payload) const;
   void give_up(Recording& recording, const std::string& why);
 
   const NodeCache& cache_;

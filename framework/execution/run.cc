@@ -54,7 +54,8 @@ class Run {
         threads_(threads),
         cache_(options.cache_folder),
         node_cache_(options.cache_folder,
-                    options.cache_limit_bytes.value_or(default_cache_limit(options.cache_folder))),
+                    options.cache_limit_bytes.value_or(default_cache_limit(options.cache_folder)),
+                    feature_loaders(pipeline)),
         progress_(options.progress) {}
 
   RunReport execute() {

@@ -78,6 +78,8 @@ std::string abi_mismatch(const AbiTag& found, const AbiTag& wanted) {
   d.compare(found.size_parameter_spec, wanted.size_parameter_spec, "size of ParameterSpec",
             headers);
   d.compare(found.size_build_context, wanted.size_build_context, "size of BuildContext", headers);
+  d.compare(found.size_declaration, wanted.size_declaration, "size of ComponentDeclaration",
+            headers);
   d.compare(found.size_vector4d, wanted.size_vector4d, "size of Eigen::Vector4d", headers);
   d.compare(found.align_vector4d, wanted.align_vector4d, "alignment of Eigen::Vector4d",
             "rebuild the plugin without another EIGEN_MAX_ALIGN_BYTES");

@@ -1,16 +1,42 @@
 // The doubles that find, describe and follow people.
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "plaza/core/error.h"
 #include "plaza/data/track.h"
 #include "tests/support/double_behavior.h"
 
 namespace plaza::test {
 namespace {
+
+/// A number that observations carry.
+struct TestMark final : FeatureOf<TestMark> {
+  static constexpr std::string_view kFeature = "test-mark";
+  explicit TestMark(std::uint64_t v) : value(v) {}
+  static std::shared_ptr<const TestMark> load(std::string_view bytes) {
+    if (bytes.size() != sizeof(value)) throw InternalError("a mark has 8 bytes");
+    std::uint64_t read = 0;
+    std::memcpy(&read, bytes.data(), sizeof(read));
+    return std::make_shared<TestMark>(read);
+  }
+  std::optional<std::string> do_save() const override {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+  std::uint64_t value;
+};
+
+/// One that can't be kept.
+struct TestWhim final : FeatureOf<TestWhim> {
+  static constexpr std::string_view kFeature = "test-whim";
+};
 
 /// Two people whose places depend on every pixel.
 class TestDetector : public Detector {
@@ -51,13 +77,18 @@ class TestDetector : public Detector {
 
 class TestDescriber : public Describer {
  public:
-  using Options = Work;
+  struct Options : Work {
+    std::string feature;
+  };
   static Declaration<Options> declare() {
     Parameters<Options> p;
     declare_work(p);
+    p.value("feature", &Options::feature).meaning("mark or whim: what people carry");
     return Declaration<Options>("test-describer", "Turns every second person.")
         .input<Observations>("people")
         .output<Observations>("the same with headings")
+        .feature<TestMark>("a number of its own")
+        .feature<TestWhim>("nothing")
         .parameters(std::move(p));
   }
   TestDescriber(const Options& options, const BuildContext&) : options_(options) {}
@@ -67,6 +98,11 @@ class TestDescriber : public Describer {
     work(options_, io.frame());
     for (std::size_t i = 0; i < observations.items.size(); i += 2) {
       observations.items[i].heading_rad = 0.25 * static_cast<double>(io.frame() % 12);
+    }
+    for (Observation& o : observations.items) {
+      const auto seed = static_cast<std::uint64_t>(io.frame());
+      if (options_.feature == "mark") o.features.set(std::make_shared<TestMark>(mix(seed)));
+      if (options_.feature == "whim") o.features.set(std::make_shared<TestWhim>());
     }
   }
   Options options_;
@@ -101,7 +137,7 @@ class TestAssociator : public Associator {
            .frame = input.frame,
            .position_m = o.position_m + Eigen::Vector2d(0, 1e-3 * static_cast<double>(pushed_)),
            .heading_rad = o.heading_rad,
-           .score = o.probability,
+           .score = score_of(o),
            .observed = true,
            .final = false,
            .boxes = {}});
@@ -116,6 +152,11 @@ class TestAssociator : public Associator {
     AssociatorOutput output;
     finalize(std::numeric_limits<std::int64_t>::max(), output);
     return output;
+  }
+  /// Of its mark where it has one.
+  static double score_of(const Observation& o) {
+    const auto* const mark = o.features.get<TestMark>();
+    return mark != nullptr ? static_cast<double>(mark->value % 1000) / 1000 : o.probability;
   }
   void finalize(std::int64_t last, AssociatorOutput& output) {
     while (!open_.empty() && open_.begin()->first <= last) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "digest.h"
+#include "features.h"
 #include "stage.h"
 
 namespace plaza::contract {
@@ -123,6 +124,9 @@ class AssociatorCheck {
       }
       text += digest(point) + "\n";
     }
+    Tracklets given;
+    given.items = output.tracklets;
+    FeatureCheck(stage_.declaration(), findings_).look_at(given, nullptr);
     for (const Tracklet& tracklet : output.tracklets) {
       if (tracklet.points.empty()) findings_.add("gives a tracklet without points");
       for (std::size_t i = 0; i < tracklet.points.size(); ++i) {

@@ -53,6 +53,7 @@ class DeclarationCheck {
       if (!outputs.insert(port.type).second) findings_.add("output " + port.type + " stands twice");
     }
     metrics();
+    features();
     ports_of_kind();
   }
 
@@ -153,6 +154,22 @@ class DeclarationCheck {
     if (d_.kind == "evaluator" && d_.metrics.empty()) findings_.add("declares no metric");
     if (d_.kind != "evaluator" && !d_.metrics.empty())
       findings_.add("only evaluators declare metrics");
+  }
+
+  void features() {
+    std::set<std::string> names;
+    for (const FeatureSpec& f : d_.features) {
+      const std::string what = "feature " + in_quotes(f.name);
+      if (!is_word(f.name, '-'))
+        findings_.add(what + ": its name is not made of lower-case letters, digits, hyphens");
+      one_line(f.meaning, what + ": its meaning");
+      if (!names.insert(f.name).second) findings_.add(what + " stands twice");
+    }
+    const auto carries = [](const PortSpec& port) {
+      return port.type == Observations::kPort || port.type == Tracklets::kPort;
+    };
+    if (!d_.features.empty() && std::none_of(d_.outputs.begin(), d_.outputs.end(), carries))
+      findings_.add("declares features, but gives neither Observations nor Tracklets");
   }
 
   void first_port(const std::vector<PortSpec>& ports, std::string_view type,

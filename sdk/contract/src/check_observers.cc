@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "digest.h"
+#include "features.h"
 #include "stage.h"
 
 namespace plaza::contract {
@@ -41,8 +42,11 @@ std::string processed(Node& node, Call& call, const Stage& stage, Findings& find
     } else if (call.output(i)->port() != declared.type) {
       findings.add("output " + std::to_string(i) + " is declared as " + declared.type + " but is " +
                    std::string(call.output(i)->port()));
-    } else if (const auto* o = dynamic_cast<const Observations*>(call.output(i).get())) {
-      check_boxes(*o, stage, findings);
+    } else {
+      const auto* o = dynamic_cast<const Observations*>(call.output(i).get());
+      if (o != nullptr) check_boxes(*o, stage, findings);
+      const PayloadPtr received = call.input_count() > 0 ? call.input(0) : nullptr;
+      FeatureCheck(stage.declaration(), findings).look_at(*call.output(i), received.get());
     }
   }
   return call.digest_of_outputs();
@@ -157,18 +161,22 @@ void check_describer(const Stage& stage, Findings& findings) {
 
 void check_affinity(const Stage& stage, Findings& findings) {
   const auto term = stage.make_as<AffinityTerm>();
-  const World& world = stage.world();
+  const Described world = describe_world(stage, 6);
   std::vector<Observation> later;
-  for (std::int64_t frame = 3; frame < 6; ++frame) {
-    const auto& items = world.observations(frame).items;
+  for (std::size_t frame = 3; frame < 6; ++frame) {
+    const auto& items = world.frames[frame].items;
     later.insert(later.end(), items.begin(), items.end());
   }
   Observation far_away;
   far_away.position_m = {400, -300};
   later.push_back(far_away);
+  std::vector<Observation> loaded;
+  for (const Observation& o : later) loaded.push_back(with_loaded_features(o, world.features));
   std::vector<AffinityEnd> ends;
+  std::vector<AffinityEnd> loaded_ends;
   for (std::size_t i = 0; i < later.size(); ++i) {
     ends.push_back({&later[i], 0.3 + 0.1 * static_cast<double>(i % 3)});
+    loaded_ends.push_back({&loaded[i], ends[i].time_s});
   }
   const auto evaluate = [](const AffinityTerm& t, const AffinityEnd& from,
                            const std::vector<AffinityEnd>& to) {
@@ -177,7 +185,7 @@ void check_affinity(const Stage& stage, Findings& findings) {
     return out;
   };
   const auto second = stage.make_as<AffinityTerm>();
-  for (const Observation& observation : world.observations(2).items) {
+  for (const Observation& observation : world.frames[2].items) {
     const AffinityEnd from{&observation, 0.2};
     const std::vector<double> together = evaluate(*term, from, ends);
     for (const double v : together)
@@ -189,6 +197,9 @@ void check_affinity(const Stage& stage, Findings& findings) {
       findings.require(evaluate(*term, from, {ends[i]})[0] == together[i],
                        "a link's affinity depends on the other links of the batch");
     }
+    const Observation again = with_loaded_features(observation, world.features);
+    findings.require(evaluate(*term, {&again, 0.2}, loaded_ends) == together,
+                     "features that were saved and loaded have another affinity");
     // a bare observation has a place and a time and nothing else: either the cue is missing, and
     // the term says nothing, or place and time are all the cue there is
     Observation bare = observation;

@@ -40,10 +40,18 @@ class Writer {
     return *this << std::int64_t{image.rows} << std::int64_t{image.cols}
                  << std::int64_t{image.type()} << hash;
   }
+  Writer& operator<<(const FeatureSet& features) {
+    for (const auto& feature : features.all()) {
+      const auto bytes = feature->save();
+      *this << feature->name() << std::uint64_t{bytes ? bytes->size() + 1 : 0}
+            << std::string_view(bytes ? *bytes : std::string());
+    }
+    return *this << std::string_view(";");
+  }
   Writer& observation(const Observation& o, bool described) {
     *this << o.position_m << o.covariance_m2(0, 0) << o.covariance_m2(0, 1) << o.covariance_m2(1, 0)
           << o.covariance_m2(1, 1) << o.probability << o.boxes;
-    if (described) *this << o.heading_rad << std::uint64_t{o.features.size()};
+    if (described) *this << o.heading_rad << o.features;
     return *this;
   }
   Writer& point(const TrackPoint& p) {
@@ -91,7 +99,7 @@ std::string digest(const Payload& payload) {
     for (const TrackPoint& p : tracks->points) w.point(p);
   } else if (const auto* tracklets = dynamic_cast<const Tracklets*>(&payload)) {
     for (const Tracklet& t : tracklets->items) {
-      w << t.id << std::uint64_t{t.features.size()};
+      w << t.id << t.features;
       for (const TrackPoint& p : t.points) w.point(p);
     }
   } else if (const auto* truth = dynamic_cast<const GroundTruth*>(&payload)) {

@@ -7,7 +7,8 @@
 namespace plaza::contract {
 
 /// Text that is equal exactly when two payloads are equal bit for bit, as far as the SDK knows
-/// their type: features and evidence are opaque, only their presence and name count.
+/// their type: evidence is opaque, only its presence counts; of features their names, and what they
+/// save.
 std::string digest(const Payload& payload);
 std::string digest(const PayloadPtr& payload);  ///< "-" when null
 

@@ -7,6 +7,7 @@
 #include <opencv2/core/version.hpp>
 
 #include "plaza/component/build_context.h"
+#include "plaza/component/declaration.h"
 #include "plaza/component/parameter.h"
 #include "plaza/data/observation.h"
 #include "plaza/data/track.h"
@@ -30,6 +31,7 @@ struct AbiTag {
   std::uint32_t size_track_point, align_track_point;
   std::uint32_t size_parameter_spec;
   std::uint32_t size_build_context;
+  std::uint32_t size_declaration;  ///< of ComponentDeclaration
   std::uint32_t size_vector4d, align_vector4d;
 };
 
@@ -41,7 +43,7 @@ struct PluginDescriptor {
   void (*register_components)(void* registrar);  ///< a ComponentRegistrar*; may throw
 };
 
-inline constexpr std::uint32_t kPluginLayout = 1;
+inline constexpr std::uint32_t kPluginLayout = 2;
 inline constexpr const char* kPluginSymbol = "plaza_plugin_descriptor";
 
 /// The tag of the code that this header is compiled into.
@@ -64,6 +66,7 @@ constexpr AbiTag current_abi() {
       .align_track_point = alignof(TrackPoint),
       .size_parameter_spec = sizeof(ParameterSpec),
       .size_build_context = sizeof(BuildContext),
+      .size_declaration = sizeof(ComponentDeclaration),
       .size_vector4d = sizeof(Eigen::Vector4d),
       .align_vector4d = alignof(Eigen::Vector4d),
   };

@@ -12,6 +12,7 @@ namespace plaza {
 
 Payload::~Payload() = default;
 Feature::~Feature() = default;
+std::optional<std::string> Feature::do_save() const { return std::nullopt; }
 Evidence::~Evidence() = default;
 std::vector<Picture> Evidence::pictures() const { return {}; }
 FrameSet::~FrameSet() = default;

@@ -77,6 +77,23 @@ TEST(DeclarationContractTest, EveryFaultIsNamed) {
          list.default_value = {1.0, -2.0};
          d.parameters = {list};
        }},
+      {"feature \"Hue\": its name is not made",
+       [](auto& d) {
+         d.features = {{"Hue", "colour"}};
+       }},
+      {"feature \"hue\": its meaning is empty",
+       [](auto& d) {
+         d.features = {{"hue", ""}};
+       }},
+      {"feature \"hue\" stands twice",
+       [](auto& d) {
+         d.features = {{"hue", "colour"}, {"hue", "colour"}};
+       }},
+      {"declares features, but gives neither",
+       [](auto& d) {
+         d.features = {{"hue", "colour"}};
+         d.outputs = {{"Detections", true, "people"}};
+       }},
       {"the meaning of input Frames is empty", [](auto& d) { d.inputs[0].meaning = ""; }},
       {"output Observations stands twice", [](auto& d) { d.outputs.push_back(d.outputs[0]); }},
       {"output 0 is not Observations", [](auto& d) { d.outputs[0].type = "Tracks"; }},

@@ -19,7 +19,7 @@ class NodeCacheTest : public ::testing::Test {
   static std::string bytes_of(double score) {
     Detections detections;
     detections.views = {{{.box = {1, 2, 3, 4}, .score = score}}};
-    return *encode_payload(detections);
+    return *encode_payload(detections, {});
   }
   static EntryInfo info(std::int64_t frames) {
     EntryInfo info;

@@ -18,20 +18,41 @@
 namespace plaza {
 namespace {
 
+/// A word.
+struct Word final : FeatureOf<Word> {
+  static constexpr std::string_view kFeature = "word";
+  explicit Word(std::string_view t) : text(t) {}
+  static std::shared_ptr<const Word> load(std::string_view bytes) {
+    if (bytes == "none") throw UserError("this is no word");
+    if (bytes == "alien") throw 42;
+    if (bytes == "nothing") return nullptr;
+    return std::make_shared<Word>(bytes);
+  }
+  std::optional<std::string> do_save() const override { return text; }
+  std::string text;
+};
+
+FeatureLoaders loaders() {
+  const FeatureSpec spec = feature_spec<Word>("a word");
+  return {{spec.name, spec.load}};
+}
+
 /// What comes back of a payload.
 template <class T>
 std::shared_ptr<const T> again(const T& payload) {
-  const auto bytes = encode_payload(payload);
+  const auto bytes = encode_payload(payload, loaders());
   EXPECT_TRUE(bytes.has_value());
-  auto back = std::dynamic_pointer_cast<const T>(decode_payload(T::kPort, *bytes, "test"));
+  auto back =
+      std::dynamic_pointer_cast<const T>(decode_payload(T::kPort, *bytes, loaders(), "test"));
   EXPECT_NE(back, nullptr);
-  EXPECT_EQ(encode_payload(*back), bytes) << "the same bytes again";
+  EXPECT_EQ(encode_payload(*back, loaders()), bytes) << "the same bytes again";
   for (std::size_t cut = 0; cut < std::min<std::size_t>(bytes->size(), 400); ++cut) {
-    EXPECT_THROW(decode_payload(T::kPort, std::string_view(*bytes).substr(0, cut), "test"),
-                 DamagedEntry)
+    EXPECT_THROW(
+        decode_payload(T::kPort, std::string_view(*bytes).substr(0, cut), loaders(), "test"),
+        DamagedEntry)
         << cut << " of " << bytes->size() << " bytes";
   }
-  EXPECT_THROW(decode_payload(T::kPort, *bytes + "x", "test"), DamagedEntry);
+  EXPECT_THROW(decode_payload(T::kPort, *bytes + "x", loaders(), "test"), DamagedEntry);
   return back;
 }
 
@@ -137,6 +158,33 @@ TEST(PayloadCodecTest, PeopleAndTracks) {
   EXPECT_EQ(again(tracklets)->items[0].points[0].heading_rad, 0.5);
 }
 
+TEST(PayloadCodecTest, FeaturesComeBackAsTheyWereSaved) {
+  Observations observations;
+  observations.items = {observation(), observation()};
+  observations.items[1].features.set(std::make_shared<Word>(std::string_view("a\0b", 3)));
+  const auto back = again(observations);
+  EXPECT_TRUE(back->items[0].features.empty());
+  ASSERT_NE(back->items[1].features.get<Word>(), nullptr);
+  EXPECT_EQ(back->items[1].features.get<Word>()->text, std::string_view("a\0b", 3));
+  Tracklets tracklets;
+  tracklets.items.resize(1);
+  tracklets.items[0].features.set(std::make_shared<Word>(""));
+  EXPECT_NE(again(tracklets)->items[0].features.get<Word>(), nullptr);
+}
+
+TEST(PayloadCodecTest, FeaturesThatArentWhatTheyShouldBeAreDamaged) {
+  Observations observations;
+  observations.items = {observation()};
+  for (const char* word : {"none", "alien", "nothing"}) {
+    observations.items[0].features.set(std::make_shared<Word>(word));
+    const auto bytes = encode_payload(observations, loaders());
+    ASSERT_TRUE(bytes);
+    EXPECT_THROW(decode_payload(Observations::kPort, *bytes, loaders(), "test"), DamagedEntry)
+        << word;
+    EXPECT_THROW(decode_payload(Observations::kPort, *bytes, {}, "test"), DamagedEntry);
+  }
+}
+
 struct Secret final : FeatureOf<Secret> {
   static constexpr std::string_view kFeature = "secret";
 };
@@ -144,12 +192,12 @@ struct Secret final : FeatureOf<Secret> {
 TEST(PayloadCodecTest, WhatCannotBeKeptIsSaid) {
   EXPECT_FALSE(can_keep(EvidenceSet::kPort));
   EXPECT_TRUE(can_keep(FrameSet::kPort));
-  EXPECT_FALSE(encode_payload(EvidenceSet()));
+  EXPECT_FALSE(encode_payload(EvidenceSet(), {}));
   Observations observations;
   observations.items = {observation()};
   observations.items[0].features.set(std::make_shared<Secret>());
-  EXPECT_FALSE(encode_payload(observations)) << "its features would be lost";
-  EXPECT_THROW(decode_payload("Nonsense", "", "test"), DamagedEntry);
+  EXPECT_FALSE(encode_payload(observations, loaders())) << "its features would be lost";
+  EXPECT_THROW(decode_payload("Nonsense", "", {}, "test"), DamagedEntry);
 }
 
 }  // namespace

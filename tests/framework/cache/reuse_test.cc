@@ -127,6 +127,31 @@ TEST_F(ReuseTest, ADamagedEntryIsComputedAgain) {
   EXPECT_EQ(calls("third", "detector"), 0);
 }
 
+TEST_F(ReuseTest, FeaturesThatAreReadBackGiveTheSameTracks) {
+  json nodes = nodes_with("describer", "feature", "mark");
+  run(nodes, "first");
+  nodes[3]["delay"] = 7;
+  const auto expected = reference(nodes);
+  run(nodes, "second");
+  EXPECT_EQ(results("second"), expected);
+  EXPECT_EQ(calls("second", "describer"), 0);
+  EXPECT_EQ(calls("second", "tracks"), 40);
+  const auto unmarked = reference(nodes_with("tracks", "delay", 7));
+  EXPECT_NE(expected.at("tracks.ground.csv"), unmarked.at("tracks.ground.csv"))
+      << "tracks depend on the features";
+}
+
+TEST_F(ReuseTest, WhatCarriesFeaturesThatCannotBeKeptIsComputedAgain) {
+  json nodes = nodes_with("describer", "feature", "whim");
+  run(nodes, "first");
+  nodes[3]["delay"] = 7;
+  const auto expected = reference(nodes);
+  run(nodes, "second");
+  EXPECT_EQ(results("second"), expected);
+  EXPECT_EQ(calls("second", "detector"), 0) << "what is above it is kept";
+  EXPECT_EQ(calls("second", "describer"), 40);
+}
+
 TEST_F(ReuseTest, RenderersAndSinksGetTheSameFromTheCache) {
   options_.draw = true;
   json nodes = plain_nodes();

@@ -64,6 +64,7 @@ TEST(AbiTest, EveryFieldIsComparedAndNamedInWords) {
       {"alignment of TrackPoint", [](AbiTag& t) { ++t.align_track_point; }},
       {"size of ParameterSpec", [](AbiTag& t) { ++t.size_parameter_spec; }},
       {"size of BuildContext", [](AbiTag& t) { ++t.size_build_context; }},
+      {"size of ComponentDeclaration", [](AbiTag& t) { ++t.size_declaration; }},
       {"size of Eigen::Vector4d", [](AbiTag& t) { ++t.size_vector4d; }},
       {"alignment of Eigen::Vector4d", [](AbiTag& t) { ++t.align_vector4d; }},
   };

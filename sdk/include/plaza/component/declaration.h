@@ -19,6 +19,7 @@
 #include "plaza/component/renderer.h"
 #include "plaza/component/sink.h"
 #include "plaza/component/source.h"
+#include "plaza/data/feature.h"
 
 namespace plaza {
 
@@ -51,7 +52,8 @@ struct ComponentDeclaration {
   std::vector<PortSpec> inputs;
   std::vector<PortSpec> outputs;
   std::vector<MetricSpec> metrics;
-  bool memory = false;  ///< true: frames must be processed in order, one at a time
+  std::vector<FeatureSpec> features;  ///< that it adds to observations or tracklets
+  bool memory = false;                ///< true: frames must be processed in order, one at a time
 };
 
 /// "source", "modality", "shape", "appearance", "motion", "detector", "describer", "affinity",
@@ -121,6 +123,13 @@ class Declaration {
   }
   Declaration& metric(MetricSpec metric) {
     info_.metrics.push_back(std::move(metric));
+    return *this;
+  }
+  /// Features of type F are among what it gives; all that it adds must be declared. Those with
+  /// F::load() can be kept between runs, see Feature.
+  template <class F>
+  Declaration& feature(std::string meaning) {
+    info_.features.push_back(feature_spec<F>(std::move(meaning)));
     return *this;
   }
   /// Frames must come in order (sources, associators, evaluators, sinks and renderers always do).

@@ -45,6 +45,9 @@ struct Trial {
   /// own).
   std::shared_ptr<const Scene> scene;
   Finder finder;
+  /// Affinity terms only: describers { "use": NAME, parameters } that the world's observations go
+  /// through before the term compares them, so that its cue is there; made with `finder`.
+  std::vector<nlohmann::json> describers;
   SourceRole role = SourceRole::kClock;  ///< sources only
   /// Folder for what sinks and renderers write; emptied. A temporary one when empty.
   std::filesystem::path output_folder;
