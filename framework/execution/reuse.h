@@ -12,6 +12,8 @@
 #include "framework/cache/stream_keys.h"
 #include "framework/execution/demand.h"
 #include "framework/execution/frame_loop.h"
+#include "framework/execution/recordings.h"
+#include "framework/execution/run.h"
 #include "framework/results/summary.h"
 
 namespace plaza {
@@ -22,14 +24,18 @@ namespace plaza {
 /// A node works only when something that works reads what the cache does not have. An output is
 /// kept when computing it took at least `least_gain` times as long as reading it back takes,
 /// measured on the first frames of the run; where it did not, an entry says so.
+///
+/// With RunOptions::reuse unset it only sees to it that nobody works whom nobody needs; nothing is
+/// read or kept then.
 class Reuse {
  public:
-  /// All must outlive it. `keys` as stream_keys() gives them.
-  Reuse(const NodeCache& cache, double least_gain, StreamKeys keys, const FrameRange& frames);
+  /// All must outlive it.
+  Reuse(const NodeCache& cache, const RunOptions& options);
 
   /// Decides who works and sets it in the plan; waits while other processes compute what this run
-  /// would compute as well, and then takes theirs. Returns false when a stop was requested.
-  bool begin(ExecutionPlan& plan, const std::vector<Branch>& branches, bool draw);
+  /// would compute as well, and then takes theirs. Returns false when a stop was requested. Once.
+  bool begin(ExecutionPlan& plan, const std::vector<Branch>& branches,
+             const ResolvedPipeline& pipeline, const Scene& scene);
 
   /// The clock does not work: frames end before this one.
   std::optional<std::int64_t> replay_end() const { return replay_end_; }
@@ -39,53 +45,34 @@ class Reuse {
   void replay(FrameState& state, std::optional<std::size_t> but = std::nullopt) const;
   void replay_flush(FrameState& state) const;
 
-  /// Keeps what working nodes gave in a frame, in order; `seconds` so far by node. After the last
-  /// frame what they gave when flushed.
-  void record(const FrameState& state, const std::vector<NodeTiming>& timings);
-  void record_flush(const FrameState& state);
-  /// Gives the entries of a complete run their names, and makes room.
-  void commit(std::int64_t frames, const std::vector<NodeTiming>& timings,
-              const std::vector<std::string>& notes);
+  /// What is to be kept of this run. Nothing where RunOptions::reuse is unset.
+  Recordings& recordings() { return recordings_; }
 
-  /// What all nodes would have taken that the run asked for, had nothing been kept.
+  /// What all nodes would have taken that somebody reads, had nothing been kept: the same whoever
+  /// worked in this run.
   double node_seconds(const std::vector<NodeTiming>& timings) const;
   /// Of an earlier run of the same frames; nothing while the clock works.
   std::vector<std::string> kept_notes() const;
-  /// Why something could not be kept.
-  const std::vector<std::string>& troubles() const { return troubles_; }
 
  private:
-  using Place = std::pair<std::size_t, std::size_t>;  // node, output
-  struct Recording {
-    Place place;
-    std::unique_ptr<EntryWriter> writer;
-    double read_s = 0;  ///< to read back the frames that were measured
-    std::int64_t frames = 0;
-  };
-
+  /// Takes the right to compute what the cache does not have; false when a stop was requested.
+  bool settle(const ExecutionPlan& plan, const std::vector<Branch>& branches);
   std::string key_of(const Place& place) const;
   void look(const ExecutionPlan& plan);
   std::vector<Place> missing(const ExecutionPlan& plan, const Demand& demand) const;
   bool lock(std::vector<Place> places);
-  void open_recordings(const std::vector<Place>& places);
-  EntryInfo info_of(const Place& place, std::int64_t frames,
-                    const std::vector<NodeTiming>& timings) const;
-  /// Ends a recording that is not worth it; an entry says so.
-  void decline(Recording& recording, const std::vector<NodeTiming>& timings);
-  std::optional<std::string> encode(const Place& place, const PayloadPtr& payload) const;
-  void give_up(Recording& recording, const std::string& why);
+  Recordings::Seconds known_seconds() const;
 
   const NodeCache& cache_;
-  const double least_gain_;
-  const StreamKeys keys_;
+  const RunOptions& options_;
   const FrameRange frames_;
+  StreamKeys keys_;
   const ExecutionPlan* plan_ = nullptr;
   Demand demand_, without_cache_;
   std::map<Place, std::unique_ptr<EntryReader>> kept_;  ///< whole entries, declined ones included
   std::map<Place, FileLock> locks_;
-  std::vector<Recording> recordings_;
+  Recordings recordings_;
   std::optional<std::int64_t> replay_end_;
-  std::vector<std::string> troubles_;
 };
 
 }  // namespace plaza

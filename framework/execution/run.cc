@@ -12,8 +12,6 @@
 
 #include "framework/cache/bytes.h"
 #include "framework/cache/node_cache.h"
-#include "framework/cache/stream_keys.h"
-#include "framework/execution/demand.h"
 #include "framework/execution/disk_reserve.h"
 #include "framework/execution/evaluate.h"
 #include "framework/execution/frame_loop.h"
@@ -118,20 +116,8 @@ class Run {
 
   /// Says who has to be called at all.
   void let_work() {
-    if (options_.reuse) {
-      const FrameRange frames{options_.first_frame, options_.end_frame};
-      LibraryIdentities libraries;
-      reuse_ = std::make_unique<Reuse>(node_cache_, options_.least_gain,
-                                       stream_keys(plan_, pipeline_, *scene_, frames, libraries),
-                                       frames);
-      stopped_ = !reuse_->begin(plan_, branches_, options_.draw);
-    } else if (!options_.draw) {
-      const Demand demand = demand_of(plan_, branches_, options_.draw,
-                                      [](std::size_t, std::size_t) { return false; });
-      for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
-        plan_.nodes[i].works = demand.works[i] || i == plan_.clock;
-      }
-    }
+    reuse_ = std::make_unique<Reuse>(node_cache_, options_);
+    stopped_ = !reuse_->begin(plan_, branches_, pipeline_, *scene_);
   }
 
   /// Takes what was learned before from the cache; what a plugin will not take is learned again.
@@ -202,7 +188,7 @@ class Run {
 
   void stream() {
     end_frame_ = options_.first_frame;
-    if (reuse_ && reuse_->replay_end()) {
+    if (reuse_->replay_end()) {
       reader_.replay_clock(*reuse_->replay_end(),
                            [this](FrameState& state) { reuse_->replay_node(plan_.clock, state); });
     }
@@ -212,7 +198,7 @@ class Run {
       if (options_.end_frame && reader_.next() >= *options_.end_frame) return false;
       return reader_.read(state);
     };
-    if (reuse_) {
+    if (options_.reuse) {
       loop.stages.push_back(
           {.ordered = false, .work = [this](FrameState& s) { reuse_->replay(s, plan_.clock); }});
     }
@@ -259,7 +245,7 @@ class Run {
       if (plan_.nodes[i].works && !draws_[i])
         ++timings_[i].calls;  // those that draw are counted where they do
     }
-    if (reuse_) reuse_->record(state, timings_);
+    reuse_->recordings().add(state, timings_);
     for (RenderTask& task : renderers_) {
       if (task.ground_truth_slot < 0) continue;
       task.ground_truth.push_back(state.slots[static_cast<std::size_t>(task.ground_truth_slot)]);
@@ -281,7 +267,7 @@ class Run {
     FrameState state;
     state.reset(end_frame_, scene_->time_of_frame(end_frame_), plan_.slot_count,
                 plan_.nodes.size());
-    if (reuse_ && !attempt([&] { reuse_->replay_flush(state); })) return;
+    if (!attempt([&] { reuse_->replay_flush(state); })) return;
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
       const PlannedNode& node = plan_.nodes[i];
       if (node.source != nullptr || i == failed_node_ || !node.works) continue;
@@ -296,7 +282,7 @@ class Run {
       timings_[i].seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
     }
     attempt([&] { recorder_->add_flushed(state); });
-    if (reuse_ && !ended()) reuse_->record_flush(state);
+    if (!ended()) reuse_->recordings().add_flush(state);
   }
 
   void render() {
@@ -348,11 +334,7 @@ class Run {
       report_.artifacts.insert(report_.artifacts.end(), files.begin(), files.end());
     });
     add_notes();
-    if (reuse_) {
-      report_.node_seconds = reuse_->node_seconds(timings_);
-    } else {
-      for (const NodeTiming& timing : timings_) report_.node_seconds += timing.seconds;
-    }
+    report_.node_seconds = reuse_->node_seconds(timings_);
     report_.complete = !ended();
     report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     if (fault_) {
@@ -370,7 +352,7 @@ class Run {
   /// when it was computed.
   void add_notes() {
     std::vector<std::string> learning = std::exchange(report_.notes, {});
-    if (reuse_ && reuse_->replay_end()) {
+    if (reuse_->replay_end()) {
       report_.notes = reuse_->kept_notes();
     } else {
       for (const std::string& note : missing_views_.notes()) {
@@ -378,10 +360,9 @@ class Run {
       }
       for (const PlannedNode& node : plan_.nodes) add_notes(node);
     }
-    if (reuse_) {
-      if (!ended()) reuse_->commit(report_.frames, timings_, report_.notes);
-      learning.insert(learning.end(), reuse_->troubles().begin(), reuse_->troubles().end());
-    }
+    if (!ended()) reuse_->recordings().commit(report_.frames, timings_, report_.notes);
+    const std::vector<std::string>& troubles = reuse_->recordings().troubles();
+    learning.insert(learning.end(), troubles.begin(), troubles.end());
     report_.notes.insert(report_.notes.begin(), learning.begin(), learning.end());
   }
 
