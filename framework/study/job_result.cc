@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kLayout = 1;
+constexpr int kLayout = 2;
 
 std::string hash_text(std::string_view text) {
   Hash hash;
@@ -36,6 +36,7 @@ std::optional<JobResult> read_job_result(const std::filesystem::path& folder,
     if (file.at("checksum") != hash_text(content.dump())) return std::nullopt;
     JobResult result;
     result.error = content.at("error").get<std::string>();
+    result.again = content.at("again").get<bool>();
     result.frames = content.at("frames").get<std::int64_t>();
     result.node_seconds = content.at("node_seconds").get<double>();
     result.evaluation = content.at("evaluation").get<Evaluation>();
@@ -48,11 +49,9 @@ std::optional<JobResult> read_job_result(const std::filesystem::path& folder,
 
 void write_job_result(const std::filesystem::path& folder, std::string_view key,
                       const JobResult& result) {
-  const json content = {{"error", result.error},
-                        {"frames", result.frames},
-                        {"node_seconds", result.node_seconds},
-                        {"evaluation", result.evaluation},
-                        {"branches", result.branches}};
+  const json content = {{"error", result.error},           {"again", result.again},
+                        {"frames", result.frames},         {"node_seconds", result.node_seconds},
+                        {"evaluation", result.evaluation}, {"branches", result.branches}};
   // a plugin's message in "error" may be in any encoding
   const auto dump = [](const json& value) {
     return value.dump(-1, ' ', false, json::error_handler_t::replace);

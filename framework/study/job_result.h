@@ -13,7 +13,8 @@ namespace plaza {
 
 /// How a job ended.
 struct JobResult {
-  std::string error;  ///< why it failed; empty: it is done
+  std::string error;   ///< why it failed; empty: it is done
+  bool again = false;  ///< it failed by no fault of its own: the next start tries it again
   std::int64_t frames = 0;
   Evaluation evaluation;                       ///< of the main branch
   std::map<std::string, Evaluation> branches;  ///< of the others, by node

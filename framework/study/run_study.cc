@@ -62,7 +62,8 @@ class StudyRun {
     for (std::size_t j = 0; j < outcomes_.size(); ++j) {
       const PreparedJob& job = end_.prepared.jobs[j];
       outcomes_[j].result = read_job_result(folder_of(j), job.key);
-      if (outcomes_[j].result && options_.retry && outcomes_[j].result->failed()) {
+      const auto& before = outcomes_[j].result;
+      if (before && (before->again || (options_.retry && before->failed()))) {
         outcomes_[j].result.reset();
         std::error_code ignored;  // what stays is overwritten
         fs::remove(folder_of(j) / "result.json", ignored);
@@ -106,6 +107,11 @@ class StudyRun {
     const PreparedJob& job = end_.prepared.jobs[end.index];
     JobOutcome& outcome = outcomes_[end.index];
     outcome.result = read_job_result(folder_of(end.index), job.key);
+    if (outcome.result && outcome.result->again) {
+      outcome.trouble = outcome.result->error + "; start the study again";
+      outcome.result.reset();
+      return;
+    }
     if (outcome.result) return;
     const std::string log = "see " + (folder_of(end.index) / "log.txt").string();
     if (!end.crash.empty() && !end.again) {

@@ -62,7 +62,8 @@ bool run_study_job(const JobOptions& options, const Registry& registry) {
     if (stop_requested()) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  if (read_job_result(options.folder, order.key)) return true;
+  const auto before = read_job_result(options.folder, order.key);
+  if (before && !before->again) return true;
   RunOptions run;
   run.first_frame = order.frames.first;
   run.end_frame = order.frames.end;
@@ -83,6 +84,9 @@ bool run_study_job(const JobOptions& options, const Registry& registry) {
     result.evaluation = report.evaluation;
     result.branches = report.branches;
     result.node_seconds = report.node_seconds;
+  } catch (const DiskFullError& error) {
+    result.error = message_of(error);
+    result.again = true;
   } catch (const Error& error) {
     result.error = message_of(error);
   }

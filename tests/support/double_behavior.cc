@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "plaza/core/error.h"
+#include "plaza/io/output_file.h"
 
 namespace plaza::test {
 
@@ -13,6 +14,7 @@ void fail_if(const Failure& failure, const std::string& phase, std::int64_t fram
   if (failure.fail_in != phase || failure.fail_at != frame) return;
   if (failure.error == "user") throw UserError("asked to fail; ask for something else");
   if (failure.error == "internal") throw InternalError("asked to fail");
+  if (failure.error == "full") throw DiskFullError("cannot write: the disk is full");
   if (failure.error == "crash") std::abort();
   if (failure.error == "foreign") throw std::out_of_range("a plugin's own trouble");
   throw 42;

@@ -18,7 +18,7 @@ namespace plaza::test {
 /// Components that do little, visibly, and fail on demand: "test-source", "test-detector",
 /// "test-describer", "test-learner", "test-associator", "test-scores", "test-sink",
 /// "test-renderer". All take `fail_in` (a phase), `fail_at` (a frame from 0) and `error` (user,
-/// internal, foreign, alien, crash).
+/// internal, foreign, alien, full, crash).
 void register_doubles(ComponentRegistrar& registrar);
 
 /// A registry with the doubles.

@@ -38,6 +38,8 @@ std::string remedy(int error) {
 
 }  // namespace
 
+DiskFullError::~DiskFullError() = default;
+
 OutputFile::OutputFile(std::filesystem::path file) : file_(std::move(file)), part_(file_) {
   part_ += ".part";
   descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -64,8 +66,10 @@ void OutputFile::close() noexcept {
 }
 
 void OutputFile::fail(const char* action, int error) {
-  throw UserError("cannot " + std::string(action) + " " + file_.string() + ": " +
-                  std::generic_category().message(error) + remedy(error));
+  const std::string text = "cannot " + std::string(action) + " " + file_.string() + ": " +
+                           std::generic_category().message(error) + remedy(error);
+  if (error == ENOSPC || error == EDQUOT) throw DiskFullError(text);
+  throw UserError(text);
 }
 
 void OutputFile::write(std::string_view record) {

@@ -14,31 +14,10 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A study with a variant that fails and one that crashes among those that work.
 class LauncherTest : public StudyProgram {
  protected:
-  void write_mixed_study(std::int64_t delay_us = 0) {
-    write_pipeline(30, delay_us);
-    write_study(
-        {{"name", "Mixed"},
-         {"axes",
-          {{{"name", "trouble"},
-            {"choices",
-             {{{"name", "none"}},
-              {{"name", "fault"},
-               {"set", {{"/nodes/tracks/fail_in", "process"}, {"/nodes/tracks/fail_at", 7}}}},
-              {{"name", "crash"},
-               {"set",
-                {{"/nodes/tracks/fail_in", "process"},
-                 {"/nodes/tracks/fail_at", 3},
-                 {"/nodes/tracks/error", "crash"}}}},
-              {{"name", "late"}, {"set", {{"/nodes/tracks/delay", 9}}}}}}}}},
-         {"seeds", {1, 2}},
-         {"baseline", {{"trouble", "none"}}}});
-  }
-
   void expect_same_tables(const std::vector<std::string>& options) {
-    write_mixed_study();
+    write_mixed_study({1, 2});
     ASSERT_EQ(run("local", {"--jobs", "2"}), 0) << errors("local");
     ASSERT_EQ(run("engine", options), 0) << errors("engine");
     EXPECT_EQ(tables("engine"), tables("local"));
@@ -47,7 +26,7 @@ class LauncherTest : public StudyProgram {
   }
 
   void expect_goes_on_after_ctrl_c(const std::vector<std::string>& options) {
-    write_mixed_study(15000);
+    write_mixed_study({1, 2}, 15000);
     const pid_t child = start("engine", options);
     for (int i = 0; i < 6000 && results_in(folder_ / "engine") < 2; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -63,13 +42,13 @@ class LauncherTest : public StudyProgram {
 };
 
 TEST_F(LauncherTest, HostsAreForParallelAlone) {
-  write_mixed_study();
+  write_mixed_study({1, 2});
   EXPECT_EQ(run("out", {"--hosts", "one"}), 2);
   EXPECT_THAT(errors("out"), HasSubstr("--hosts is for --launcher parallel"));
 }
 
 TEST_F(LauncherTest, AClusterThatRefusesIsTheUsersError) {
-  write_mixed_study();
+  write_mixed_study({1, 2});
   const auto sbatch = folder_.folder("bin") / "sbatch";
   write_text(sbatch, "#!/bin/sh\necho the queue is closed >&2\nexit 1\n");
   fs::permissions(sbatch, fs::perms::owner_all);
@@ -148,7 +127,7 @@ TEST_F(SlurmTest, GoesOnAfterCtrlCAndLeavesNothingInTheQueue) {
 }
 
 TEST_F(SlurmTest, ATaskThatIsCancelledIsTriedAgainByTheNextStart) {
-  write_mixed_study(15000);
+  write_mixed_study({1, 2}, 15000);
   const std::vector<std::string> options = {"--launcher", "slurm", "--jobs", "2"};
   const pid_t child = start("engine", options);
   for (int i = 0; i < 6000 && results_in(folder_ / "engine") < 1; ++i) {

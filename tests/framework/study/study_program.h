@@ -25,6 +25,27 @@ class StudyProgram : public ProgramRun {
     write_text(folder_ / "study.json", study.dump(2));
   }
 
+  /// A study of four variants: one that works, one that fails, one that crashes, one that works.
+  void write_mixed_study(const std::vector<int>& seeds, std::int64_t delay_us = 0) {
+    const auto failing = [](int frame, const char* error) {
+      return nlohmann::json{{"/nodes/tracks/fail_in", "process"},
+                            {"/nodes/tracks/fail_at", frame},
+                            {"/nodes/tracks/error", error}};
+    };
+    write_pipeline(30, delay_us);
+    nlohmann::json study = {{"name", "Mixed"},
+                            {"axes",
+                             {{{"name", "trouble"},
+                               {"choices",
+                                {{{"name", "none"}},
+                                 {{"name", "fault"}, {"set", failing(7, "user")}},
+                                 {{"name", "crash"}, {"set", failing(3, "crash")}},
+                                 {{"name", "late"}, {"set", {{"/nodes/tracks/delay", 9}}}}}}}}},
+                            {"baseline", {{"trouble", "none"}}}};
+    if (!seeds.empty()) study["seeds"] = seeds;
+    write_study(std::move(study));
+  }
+
   /// Starts `plaza study` as leader of a process group of its own.
   pid_t start(const std::string& out, const std::vector<std::string>& options = {}) const {
     std::vector<std::string> words = {PLAZA_STUDY_PROGRAM,

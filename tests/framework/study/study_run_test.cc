@@ -92,19 +92,7 @@ TEST_F(StudyRun, CtrlCEndsItCleanlyAndItGoesOn) {
 }
 
 TEST_F(StudyRun, AVariantThatFailsOrCrashesDoesNotStopTheOthers) {
-  write_pipeline(20, 0);
-  write_study({{"axes",
-                {{{"name", "trouble"},
-                  {"choices",
-                   {{{"name", "none"}},
-                    {{"name", "fault"},
-                     {"set", {{"/nodes/tracks/fail_in", "process"}, {"/nodes/tracks/fail_at", 7}}}},
-                    {{"name", "crash"},
-                     {"set",
-                      {{"/nodes/tracks/fail_in", "process"},
-                       {"/nodes/tracks/fail_at", 3},
-                       {"/nodes/tracks/error", "crash"}}}},
-                    {{"name", "late"}, {"set", {{"/nodes/tracks/delay", 9}}}}}}}}}});
+  write_mixed_study({});
   ASSERT_EQ(run("out", {"--jobs", "2"}), 0) << errors("out");
   const std::string csv = read_text(folder_ / "out/results.csv");
   EXPECT_THAT(csv, AllOf(HasSubstr("none,1,,done,,tracking,points"),
@@ -119,6 +107,50 @@ TEST_F(StudyRun, AVariantThatFailsOrCrashesDoesNotStopTheOthers) {
   ASSERT_EQ(run("out", {"--retry"}), 0);
   EXPECT_THAT(errors("out"), HasSubstr("trouble=fault")) << "unless one asks for it";
   EXPECT_EQ(tables("out"), before);
+}
+
+TEST_F(StudyRun, WhatFailedBecauseOfAFullDiskIsTriedAgain) {
+  write_pipeline(20, 0);
+  const json full = {{"/nodes/tracks/fail_in", "process"},
+                     {"/nodes/tracks/fail_at", 7},
+                     {"/nodes/tracks/error", "full"}};
+  write_study({{"axes",
+                {{{"name", "disk"},
+                  {"choices", {{{"name", "room"}}, {{"name", "full"}, {"set", full}}}}}}}});
+  EXPECT_EQ(run("out"), 3);
+  EXPECT_THAT(errors("out"), AllOf(HasSubstr("disk=full: node 'tracks', frame 8: cannot write: "
+                                             "the disk is full; start the study again"),
+                                   HasSubstr("the same command tries them again")));
+  EXPECT_THAT(read_text(folder_ / "out/results.csv"), HasSubstr("room,1,,done"));
+  EXPECT_EQ(run("out"), 3);
+  EXPECT_THAT(errors("out"), AllOf(HasSubstr("1 were done before"), HasSubstr("disk=full: ")))
+      << "without --retry";
+}
+
+TEST_F(StudyRun, AFullDiskIsFilledUpAndThenHasRoom) {
+  if (std::system("unshare --user --map-root-user --mount true 2> /dev/null") != 0) {
+    GTEST_SKIP() << "this system lets no process mount a file system of its own";
+  }
+  write_pipeline(6000, 0);
+  write_study({{"axes", {{{"set", "/nodes/tracks/delay"}, {"values", {1}}}}}});
+  const fs::path disk = folder_ / "disk";
+  fs::create_directory(disk);
+  const std::string study = std::string(PLAZA_STUDY_PROGRAM) + " study '" +
+                            (folder_ / "study.json").string() + "' --plugin-path '" +
+                            PLAZA_STUDY_DOUBLES + "' --cache-dir '" + (folder_ / "c").string() +
+                            "' --out '" + (disk / "out").string() + "' --quiet";
+  write_text(folder_ / "script.sh",
+             "cd '" + folder_.path().string() +
+                 "' && mount -t tmpfs -o size=512k disk disk || exit 99\n" + study +
+                 " 2> first; echo $? > status\nmount -o remount,size=64m disk\n" + study +
+                 " 2> second; status=$?; cp disk/out/results.csv .; exit $status\n");
+  const std::string script = (folder_ / "script.sh").string();
+  const int status =
+      std::system(("unshare --user --map-root-user --mount sh '" + script + "'").c_str());
+  EXPECT_THAT(read_text(folder_ / "status"), testing::AnyOf("2\n", "3\n"));
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0) << read_text(folder_ / "second");
+  EXPECT_THAT(read_text(folder_ / "results.csv"), HasSubstr("1,1,,done,,tracking,points"));
 }
 
 TEST_F(StudyRun, AChangedStudyKeepsWhatIsStillOfUse) {

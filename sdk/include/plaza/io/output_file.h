@@ -6,17 +6,26 @@
 #include <string_view>
 #include <vector>
 
+#include "plaza/core/error.h"
 #include "plaza/core/export.h"
 
 namespace plaza {
+
+/// There is no room, or a quota is used up: no fault of what was to be written, and the same may
+/// work later.
+class PLAZA_API DiskFullError final : public UserError {
+ public:
+  using UserError::UserError;
+  ~DiskFullError() override;
+};
 
 /// A file that bears its name only when it is complete. Until commit() its content grows in
 /// "NAME.part" beside it, in whole records: whatever ends the process, NAME is absent, the earlier
 /// file, or valid, and NAME.part ends with a whole record.
 ///
-/// Every failure (a full disk above all) is a UserError that names file, cause and remedy. What was
-/// written before a failure stays, cut to whole records; the rest is tried again by the next
-/// flush() or commit(), unless drop_unwritten() gives it up.
+/// Every failure is a UserError that names file, cause and remedy; a full disk a DiskFullError.
+/// What was written before a failure stays, cut to whole records; the rest is tried again by the
+/// next flush() or commit(), unless drop_unwritten() gives it up.
 class PLAZA_API OutputFile {
  public:
   /// Creates NAME.part, replacing one that an earlier process left. The folder must exist.
