@@ -49,8 +49,8 @@ class LocalLauncher {
     pid_t child = 0;
   };
 
-  /// What a running job computes for the first time in this study, another one had better wait for:
-  /// it finds it in the cache then. What was computed once is there, or was not worth keeping.
+  /// What a running job computes for the first time in this study, another one would wait for, to
+  /// find it in the cache then. What was computed once is there, or was not worth keeping.
   bool would_repeat(const LaunchJob& job) const {
     return std::any_of(running_.begin(), running_.end(), [&](const Running& running) {
       const auto shared = [&](const std::string& key) {
@@ -62,9 +62,12 @@ class LocalLauncher {
   }
 
   bool start_one() {
-    const auto next = std::find_if(pending_.begin(), pending_.end(),
-                                   [this](const LaunchJob* job) { return !would_repeat(*job); });
-    if (next == pending_.end()) return false;
+    if (pending_.empty()) return false;
+    auto next = std::find_if(pending_.begin(), pending_.end(),
+                             [this](const LaunchJob* job) { return !would_repeat(*job); });
+    // rather than leave a place empty: it waits by itself, and goes on as soon as what it waits for
+    // is kept, or turns out not worth keeping
+    if (next == pending_.end()) next = pending_.begin();
     const LaunchJob* job = *next;
     pending_.erase(next);
     std::vector<std::string> words = options_.program;
