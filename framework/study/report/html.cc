@@ -152,8 +152,10 @@ std::string report_html(const StudyResults& results) {
   for (const WordTable& table : differences) out << table_html(table);
   const std::vector<std::size_t> chosen = results.chosen();
   if (!chosen.empty()) {
-    out << "<h2>Plots</h2>\n<p class=\"quiet\">Large dots: medians; bars: quartiles; small dots: "
-           "runs. Against time, dots carry the numbers of the variants below.</p>\n";
+    out << "<h2>Plots</h2>\n<p class=\"quiet\">Large dots: medians over all runs with that value "
+           "and colour, whatever the other axes; bars: their quartiles; small dots: the runs. "
+           "Against "
+           "time, dots carry the numbers of the variants below.</p>\n";
   }
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     out << metric_html(results, comparisons, chosen[i], i < kUnfolded);

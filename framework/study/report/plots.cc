@@ -5,42 +5,15 @@
 #include <optional>
 
 #include "framework/results/number_text.h"
+#include "framework/study/report/plot_frame.h"
 #include "framework/study/report/statistics.h"
-#include "framework/study/report/svg.h"
 
 namespace plaza {
 namespace {
 
-constexpr int kWidth = 460, kHeight = 300;
-constexpr double kLeft = 62, kRight = 16, kTop = 14, kBottom = 48;
+using namespace plot;
+
 constexpr std::size_t kMostSeries = 6;
-const char* const kGrid = "class=\"grid\"";
-const char* const kAxis = "class=\"axis\"";
-
-/// Scale, ticks and grid of the vertical axis.
-Scale vertical_axis(Svg& svg, const std::vector<double>& values, const std::string& name) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const std::vector<double> ticks = nice_ticks(*least, *most, 5);
-  const Scale scale{ticks.front(), ticks.back(), kHeight - kBottom, kTop};
-  for (const double tick : ticks) {
-    svg.line(kLeft, scale.at(tick), kWidth - kRight, scale.at(tick), kGrid);
-    svg.text(kLeft - 6, scale.at(tick) + 4, "end", tick_text(tick, ticks[1] - ticks[0]));
-  }
-  svg.line(kLeft, kTop, kLeft, kHeight - kBottom, kAxis);
-  svg.vertical_text(14, (kTop + kHeight - kBottom) / 2, name);
-  return scale;
-}
-
-void horizontal_line(Svg& svg, const std::string& name) {
-  svg.line(kLeft, kHeight - kBottom, kWidth - kRight, kHeight - kBottom, kAxis);
-  svg.text((kLeft + kWidth - kRight) / 2, kHeight - 8, "middle", name);
-}
-
-/// Shortens what would not fit beside its neighbours.
-std::string fitted(const std::string& label, double width) {
-  const auto most = static_cast<std::size_t>(std::max(width / 6.2, 3.0));
-  return label.size() <= most ? label : label.substr(0, most - 1) + "…";
-}
 
 /// Where the values of an axis stand: numbers to scale, words side by side.
 std::vector<double> places_of(Svg& svg, const Axis& axis) {
@@ -102,7 +75,7 @@ std::vector<double> figures_at(const StudyResults& results, std::size_t column, 
 
 void draw_series(Svg& svg, const std::vector<double>& places,
                  const std::vector<std::vector<double>>& figures, const Scale& y, double shift,
-                 const std::string& color, const std::vector<std::string>& titles) {
+                 const std::string& color, const std::vector<std::string>& titles, bool scaled) {
   const std::string stroke = "stroke=\"" + color + "\" stroke-width=\"2\"";
   std::vector<std::pair<double, double>> medians;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -118,7 +91,8 @@ void draw_series(Svg& svg, const std::vector<double>& places,
     }
     medians.emplace_back(x, y.at(spread->median));
   }
-  svg.path(medians, stroke);
+  // between words there is nothing: their line only shows what belongs together
+  svg.path(medians, scaled ? stroke : stroke + " stroke-dasharray=\"3 4\" stroke-opacity=\"0.7\"");
   for (std::size_t i = 0, m = 0; i < places.size(); ++i) {
     const auto spread = spread_of(figures[i]);
     if (!spread) continue;
@@ -144,7 +118,8 @@ std::string axis_plot(const StudyResults& results, std::size_t axis, std::size_t
   const Axis& along = study.axes[axis];
   const std::string title = results.columns[column].title();
   Svg svg(kWidth, kHeight);
-  const Scale y = vertical_axis(svg, all_figures(results, column), title);
+  const Scale y =
+      vertical_axis(svg, all_figures(results, column), axis_title(results.columns[column]));
   const std::vector<double> places = places_of(svg, along);
   horizontal_line(svg, along.name);
 
@@ -164,7 +139,7 @@ std::string axis_plot(const StudyResults& results, std::size_t axis, std::size_t
                        (series ? ", " + study.axes[*series].name + "=" + lines[s] : ""));
     }
     const double shift = 5 * (static_cast<double>(s) - 0.5 * static_cast<double>(lines.size() - 1));
-    draw_series(svg, places, figures, y, shift, series_color(s), titles);
+    draw_series(svg, places, figures, y, shift, series_color(s), titles, along.numeric());
   }
   std::string legend;
   for (std::size_t s = 0; series && s < lines.size(); ++s) {
@@ -186,6 +161,8 @@ std::string difference_plot(const StudyResults& results, const std::vector<Compa
     ++rows;
     values.insert(values.end(), {estimate->mean, estimate->low.value_or(estimate->mean),
                                  estimate->high.value_or(estimate->mean)});
+    const std::vector<double>& runs = comparison.differences[column];
+    values.insert(values.end(), runs.begin(), runs.end());
   }
   if (rows == 0) return {};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -211,7 +188,6 @@ std::string difference_plot(const StudyResults& results, const std::vector<Compa
                "stroke=\"" + color + "\" stroke-width=\"3\" stroke-opacity=\"0.6\"");
     }
     for (const double difference : comparison.differences[column]) {
-      if (difference < x.low || difference > x.high) continue;  // the interval is of the mean
       svg.dot(x.at(difference), y, 1.8, "fill=\"" + color + "\" fill-opacity=\"0.35\"",
               fixed_text(difference, 3));
     }
@@ -220,65 +196,10 @@ std::string difference_plot(const StudyResults& results, const std::vector<Compa
     svg.text(kWords - 10, y + 4, "end", fitted(comparison.label, kWords - 10));
     y += kRow;
   }
-  const std::string title =
-      results.columns[column].title() + " minus that of " + baseline_text(results.prepared->study);
+  const std::string title = axis_title(results.columns[column]) + ", minus that of " +
+                            baseline_text(results.prepared->study);
   svg.text((kWords + width - 20) / 2, bottom + 34, "middle", title);
   return "<figure>" + svg.str(title) + "</figure>";
-}
-
-std::optional<double> milliseconds_per_frame(const StudyResults& results, std::size_t variant) {
-  constexpr double kMilliseconds = 1e3;
-  std::vector<double> times;
-  for (std::size_t j = 0; j < results.jobs.size(); ++j) {
-    const JobOutcome& job = results.jobs[j];
-    if (results.prepared->expansion.jobs[j].variant != variant || !job.done()) continue;
-    if (job.result->frames <= 0 || job.result->node_seconds <= 0) continue;
-    times.push_back(kMilliseconds * job.result->node_seconds /
-                    static_cast<double>(job.result->frames));
-  }
-  if (times.empty()) return std::nullopt;
-  return quantile(times, 0.5);
-}
-
-std::string time_plot(const StudyResults& results, std::size_t column) {
-  struct Point {
-    std::size_t variant;
-    double ms, figure;
-  };
-  std::vector<Point> points;
-  const auto& variants = results.prepared->expansion.variants;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
-    const auto spread = spread_of(results.figures(v, column));
-    const auto ms = milliseconds_per_frame(results, v);
-    if (spread && ms) points.push_back({v, *ms, spread->median});
-  }
-  if (points.empty()) return {};
-  std::vector<double> figures;
-  double low = points[0].ms;
-  double high = low;
-  for (const Point& point : points) {
-    figures.push_back(point.figure);
-    low = std::min(low, point.ms);
-    high = std::max(high, point.ms);
-  }
-  Svg svg(kWidth, kHeight);
-  const std::string title = results.columns[column].title();
-  const Scale y = vertical_axis(svg, figures, title);
-  const std::vector<double> ticks = nice_ticks(std::min(0.0, low), high, 5);
-  const Scale x{ticks.front(), ticks.back(), kLeft, kWidth - kRight};
-  for (const double tick : ticks) {
-    svg.line(x.at(tick), kTop, x.at(tick), kHeight - kBottom, kGrid);
-    svg.text(x.at(tick), kHeight - kBottom + 16, "middle", tick_text(tick, ticks[1] - ticks[0]));
-  }
-  horizontal_line(svg, "milliseconds per frame, all nodes together");
-  for (const Point& point : points) {
-    const auto number = std::to_string(point.variant + 1);
-    svg.dot(x.at(point.ms), y.at(point.figure), 4, "fill=\"#0072b2\"",
-            variant_text(results.prepared->study, variants[point.variant]) + ": " +
-                fixed_text(point.figure, 3) + ", " + fixed_text(point.ms, 2) + " ms");
-    svg.text(x.at(point.ms) + 6, y.at(point.figure) - 5, "start", number, "class=\"small\"");
-  }
-  return "<figure>" + svg.str(title + " against time") + "</figure>";
 }
 
 }  // namespace plaza

@@ -8,6 +8,7 @@ namespace plaza {
 namespace {
 
 constexpr int kDecimals = 3;
+constexpr int kMostDecimals = 6;
 
 /// Chosen columns that share a branch and a section, in their order.
 std::vector<std::vector<std::size_t>> sections_of(const StudyResults& results) {
@@ -46,23 +47,32 @@ std::string spread_text(const std::vector<double>& figures, std::size_t repetiti
   const auto spread = spread_of(figures);
   if (!spread) return "-";
   if (repetitions < 2) return figure_text(spread->median, column);
-  std::string text = figure_text(spread->median, column) + " ±" +
-                     fixed_text((spread->high - spread->low) / 2, kDecimals);
+  std::string half = fixed_text((spread->high - spread->low) / 2, column.whole ? 1 : kDecimals);
+  if (half.ends_with(".0")) half.resize(half.size() - 2);
+  std::string text = figure_text(spread->median, column) + " ±" + half;
   if (figures.size() < repetitions) text += " (" + std::to_string(figures.size()) + ")";
   return text;
 }
 
-std::string signed_text(double value) {
-  const std::string text = fixed_text(value, kDecimals);
+std::string signed_text(double value, int decimals) {
+  const std::string text = fixed_text(value, decimals);
   return value > 0 && text.find_first_not_of("0.") != std::string::npos ? "+" + text : text;
 }
 
 std::string difference_text(const std::optional<Estimate>& estimate, Better better) {
   if (!estimate) return "-";
-  std::string text = signed_text(estimate->mean);
-  if (!estimate->low) return text;
-  text += " [" + signed_text(*estimate->low) + ", " + signed_text(*estimate->high) + "]";
   const int sign = verdict(*estimate, better);
+  // a bound that leaves zero out shows it
+  int decimals = kDecimals;
+  while (sign != 0 && decimals < kMostDecimals &&
+         (fixed_text(*estimate->low, decimals) == fixed_text(0, decimals) ||
+          fixed_text(*estimate->high, decimals) == fixed_text(0, decimals))) {
+    ++decimals;
+  }
+  std::string text = signed_text(estimate->mean, decimals);
+  if (!estimate->low) return text;
+  text += " [" + signed_text(*estimate->low, decimals) + ", " +
+          signed_text(*estimate->high, decimals) + "]";
   if (sign != 0) text += sign > 0 ? " better" : " worse";
   return text;
 }
