@@ -212,7 +212,9 @@ class StudyReader {
                                          std::to_string(labels->items.size()));
       } else {
         for (std::size_t i = 0; i < axis.values.size(); ++i) {
-          axis.values[i].label = label_of(labels->items[i]);
+          const ConfigValue& label = labels->items[i];
+          axis.values[i].label = label_of(label);
+          if (label.plain.is_number()) axis.values[i].number = label.plain.get<double>();
         }
       }
     }

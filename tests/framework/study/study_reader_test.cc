@@ -122,5 +122,16 @@ TEST_F(StudyReaderTest, RefusesTwinsAndSeedsWithoutPlace) {
               HasSubstr("axis \"x\" has no value \"3\"; it has \"1\", \"2\""));
 }
 
+TEST_F(StudyReaderTest, LabelsThatAreNumbersMakeAScale) {
+  for (const char* scene : {"one.json", "four.json"}) folder_.write(scene, "{}");
+  const Study s = read(R"({ "plaza_study": 1, "pipeline": "p.json", "axes": [
+    { "name": "cameras", "scenes": ["one.json", "four.json"], "labels": [1, 4] },
+    { "name": "words", "scenes": ["one.json", "four.json"], "labels": ["few", 4] } ] })");
+  EXPECT_TRUE(s.axes[0].numeric());
+  EXPECT_EQ(s.axes[0].values[1].number, 4);
+  EXPECT_EQ(s.axes[0].values[1].label, "4");
+  EXPECT_FALSE(s.axes[1].numeric());
+}
+
 }  // namespace
 }  // namespace plaza
