@@ -95,7 +95,7 @@ TEST(DescriptorTest, HeadIsCheckedBeforeTheTag) {
   d.size = 12;
   EXPECT_THAT(descriptor_mismatch(d), HasSubstr("has 12 bytes"));
   d.layout = 5;
-  EXPECT_THAT(descriptor_mismatch(d), HasSubstr("layout 5, wanted 1"));
+  EXPECT_THAT(descriptor_mismatch(d), HasSubstr("layout 5, wanted 2"));
   d.magic[0] = 'X';
   EXPECT_THAT(descriptor_mismatch(d), HasSubstr("no descriptor of a Plaza plugin"));
 }

@@ -102,7 +102,7 @@ TEST(LoaderTest, ThrowingEntryGivesItsWordsAndNoComponent) {
 TEST(LoaderTest, HeadOfTheDescriptorIsChecked) {
   EXPECT_EQ(
       refusal_of_fixture("wrong-layout"),
-      "its descriptor has layout 999, wanted 1; rebuild the plugin against SDK " PLAZA_VERSION);
+      "its descriptor has layout 999, wanted 2; rebuild the plugin against SDK " PLAZA_VERSION);
   EXPECT_THAT(refusal_of_fixture("wrong-size"), StartsWith("its descriptor has 24 bytes, wanted "));
   EXPECT_THAT(refusal_of_fixture("wrong-magic"), HasSubstr("no descriptor of a Plaza plugin"));
 }
