@@ -5,12 +5,13 @@
 namespace plaza {
 namespace {
 
-constexpr std::size_t kWord = 8;
+constexpr std::size_t kWordBytes = 8;
 
 }  // namespace
 
 void ByteWriter::word(std::uint64_t value) {
-  for (std::size_t i = 0; i < kWord; ++i) bytes_ += static_cast<char>((value >> (8 * i)) & 0xffU);
+  for (std::size_t i = 0; i < kWordBytes; ++i)
+    bytes_ += static_cast<char>((value >> (8 * i)) & 0xffU);
 }
 
 void ByteWriter::real(double value) { word(std::bit_cast<std::uint64_t>(value)); }
@@ -33,9 +34,9 @@ std::string_view ByteReader::bytes(std::uint64_t count) {
 }
 
 std::uint64_t ByteReader::word() {
-  const std::string_view piece = bytes(kWord);
+  const std::string_view piece = bytes(kWordBytes);
   std::uint64_t value = 0;
-  for (std::size_t i = 0; i < kWord; ++i) {
+  for (std::size_t i = 0; i < kWordBytes; ++i) {
     value |= static_cast<std::uint64_t>(static_cast<unsigned char>(piece[i])) << (8 * i);
   }
   return value;

@@ -14,23 +14,23 @@
 namespace plaza {
 namespace {
 
-constexpr std::chrono::milliseconds kPoll{50};
-constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::milliseconds kParallelPoll{50};
+constexpr std::chrono::seconds kParallelPatience{10};
 
 /// The whole of what was started: GNU parallel and all below it.
 void end_group(pid_t child) {
   // the first makes it start nothing more, the second ends what is at work
   ::kill(child, SIGTERM);
-  std::this_thread::sleep_for(kPoll);
+  std::this_thread::sleep_for(kParallelPoll);
   ::kill(-child, SIGTERM);
-  const auto until = std::chrono::steady_clock::now() + kPatience;
+  const auto until = std::chrono::steady_clock::now() + kParallelPatience;
   while (::waitpid(child, nullptr, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() > until) {
       ::kill(-child, SIGKILL);
       ::waitpid(child, nullptr, 0);
       return;
     }
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kParallelPoll);
   }
 }
 
@@ -60,7 +60,7 @@ void launch_parallel(const std::vector<LaunchJob>& jobs, const LaunchOptions& op
       return;
     }
     external.collect();
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kParallelPoll);
   }
   std::set<std::size_t> all;
   for (std::size_t j = 0; j < jobs.size(); ++j) all.insert(j);

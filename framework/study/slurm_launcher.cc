@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kPackage = "slurm-wlm";
 constexpr std::size_t kMostTasks = 1000;  // of an array; Slurm's MaxArraySize is 1001 by default
-constexpr std::chrono::milliseconds kPoll{200};
+constexpr std::chrono::milliseconds kSlurmPoll{200};
 // squeue asks the controller of the whole cluster, so not too often
 constexpr int kPollsPerQuestion = 10;
 
@@ -36,7 +36,7 @@ class SlurmLauncher {
       if (stop_requested()) return cancel();
       external_.collect();
       if (poll % kPollsPerQuestion == 0) ask();
-      std::this_thread::sleep_for(kPoll);
+      std::this_thread::sleep_for(kSlurmPoll);
     }
     write_file(ids_file(), "");
   }
@@ -116,7 +116,7 @@ class SlurmLauncher {
     run_tool({"scancel", id}, kPackage, true);
     constexpr int kSeconds = 60;
     for (int i = 0; i < kSeconds * 5 && !active_tasks(id).empty(); ++i) {
-      std::this_thread::sleep_for(kPoll);
+      std::this_thread::sleep_for(kSlurmPoll);
     }
   }
 

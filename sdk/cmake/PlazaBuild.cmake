@@ -31,6 +31,13 @@ if(PLAZA_SANITIZE)
   add_link_options(-fsanitize=${PLAZA_SANITIZE})
 endif()
 
+# With it a target's sources are compiled eight at a time, as one unit: what they share, mostly templates of the standard
+# library, json and Eigen, is instantiated once, in half of the time or less. An edit compiles its whole unit, and tools
+# that want each source's own command (clang-tidy, clangd) find none, so it is for builds from nothing.
+option(PLAZA_UNITY "Compile several sources of a target as one unit" OFF)
+set(CMAKE_UNITY_BUILD ${PLAZA_UNITY})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+
 # What libraries and plugins precompile, half of the time of a clean build otherwise: the standard library and
 # the packages of the public headers, nothing of our own, so that no edit touches it.
 set(PLAZA_PRECOMPILED

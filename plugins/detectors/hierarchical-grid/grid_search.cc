@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kChunk = 256;  ///< templates that one task matches
+constexpr std::size_t kTemplatesPerTask = 256;  ///< templates that one task matches
 
 /// Median of the numbers that are known; NaN without any.
 double median_of_known(std::span<const double> values) {
@@ -125,9 +125,9 @@ void GridSearch::evaluate(std::size_t level, std::span<const CellIndex> wanted,
     }
     for (std::size_t w = 0; w < witnesses_.size(); ++w) {
       if (!evidence[w][camera]) continue;
-      for (std::size_t begin = 0; begin < cells[camera].size(); begin += kChunk) {
-        tasks.push_back(
-            {w * cameras_ + camera, begin, std::min(begin + kChunk, cells[camera].size())});
+      for (std::size_t begin = 0; begin < cells[camera].size(); begin += kTemplatesPerTask) {
+        tasks.push_back({w * cameras_ + camera, begin,
+                         std::min(begin + kTemplatesPerTask, cells[camera].size())});
       }
     }
   }

@@ -9,7 +9,7 @@
 namespace plaza {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoLikelihood = std::numeric_limits<double>::quiet_NaN();
 /// A likelihood so much below the largest is as good as 0, and its logarithm is still a number.
 constexpr double kFloor = -600;
 
@@ -31,13 +31,13 @@ std::vector<double> smoothed(const GroundGrid& grid, std::span<const double> log
   for (const double v : log_likelihood) {
     if (std::isfinite(v)) largest = std::max(largest, v);
   }
-  std::vector<double> likelihood(log_likelihood.size(), kUnknown);
+  std::vector<double> likelihood(log_likelihood.size(), kNoLikelihood);
   for (std::size_t i = 0; i < likelihood.size(); ++i) {
     if (std::isfinite(log_likelihood[i])) {
       likelihood[i] = std::exp(std::max(log_likelihood[i] - largest, kFloor));
     }
   }
-  std::vector<double> out(likelihood.size(), kUnknown);
+  std::vector<double> out(likelihood.size(), kNoLikelihood);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const auto cell = static_cast<std::size_t>(row * grid.columns + column);

@@ -16,7 +16,7 @@ namespace plaza {
 namespace {
 
 constexpr std::string_view kMagic = "plaza template hierarchy 1\n";
-constexpr std::size_t kChunk = 64;  ///< cells that one task projects
+constexpr std::size_t kCellsPerTask = 64;  ///< cells that one task projects
 
 void write(std::ostream& out, std::uint64_t value) {
   std::string bytes;
@@ -62,10 +62,11 @@ void TemplateHierarchy::compute(const ShapeModel& model, double min_inside, bool
     }
     for (std::size_t level = 0; level < grid_->levels(); ++level) {
       const std::size_t cells = grid_->size(level);
-      std::vector<LevelTemplates> parts((cells + kChunk - 1) / kChunk);
+      std::vector<LevelTemplates> parts((cells + kCellsPerTask - 1) / kCellsPerTask);
       parallel_for(parts.size(), [&](std::size_t part) {
         LevelTemplates& out = parts[part];
-        for (std::size_t i = part * kChunk; i < std::min(cells, (part + 1) * kChunk); ++i) {
+        for (std::size_t i = part * kCellsPerTask; i < std::min(cells, (part + 1) * kCellsPerTask);
+             ++i) {
           const auto cell = static_cast<CellIndex>(i);
           Silhouette s =
               model.silhouette({grid_->position(level, cell), 0, 1}, scene_->cameras[camera]);

@@ -36,6 +36,8 @@ bool open_capture(cv::VideoCapture& capture, const std::filesystem::path& file) 
   return capture.open(file.string(), cv::CAP_FFMPEG, open_parameters());
 }
 
+}  // namespace
+
 // Reads the coded size of each Motion JPEG packet beside the decoder. OpenCV converts with the
 // header's size whatever comes: a smaller image would leave the lower part of an older one in
 // place.
@@ -62,8 +64,6 @@ class MotionJpegSizes {
   bool active_ = false;
   std::optional<JpegSize> first_;
 };
-
-}  // namespace
 
 class VideoFile::Decoder {
  public:

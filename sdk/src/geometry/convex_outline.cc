@@ -13,10 +13,6 @@ namespace {
 constexpr double kNear_m = 1e-4;
 constexpr int kDiscSides = 64;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Convex hull by Andrew's monotone chain; collinear points are left out.
 ConvexOutline hull_of(std::vector<Eigen::Vector2d>& points) {
   std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

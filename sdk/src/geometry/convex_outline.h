@@ -15,6 +15,11 @@ struct OutlineCorner {
 /// Counter-clockwise where x points right and y up, that is, of positive area.
 using ConvexOutline = std::vector<OutlineCorner>;
 
+/// Twice the area of the triangle (0, a, b), positive counter-clockwise.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// Outline of the part of a prism that is in front of the camera's centre; empty when there is
 /// none.
 ConvexOutline outline_of(const Prism& prism, const CameraFromWorld& pose);

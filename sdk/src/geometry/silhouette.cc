@@ -16,10 +16,6 @@ constexpr double kPiece_px = 8;
 /// How far outside an outline a point must be covered by another solid to be no boundary.
 constexpr double kNudge_px = 0.02;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Pixel of an ideal point, for a camera whose pose is undone first: Camera speaks of the world.
 class Sight {
  public:

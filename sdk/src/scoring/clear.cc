@@ -2,23 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "plaza/math/assignment.h"
+#include "rounding.h"
 
 namespace plaza {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kContinuationBonus = 1000;
 constexpr int kNobody = -1;
 
-double ratio(double numerator, std::int64_t denominator) {
+double ratio_to_count(double numerator, std::int64_t denominator) {
   return denominator > 0 ? numerator / static_cast<double>(denominator) : 0.0;
 }
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t slot(int index) { return static_cast<std::size_t>(index); }
 
 /// What one true identity has gone through.
 struct History {
@@ -27,17 +26,17 @@ struct History {
   std::int64_t starts = 0;
 };
 
-class Accumulator {
+class ClearAccumulator {
  public:
-  Accumulator(const PairedSequence& sequence, double threshold)
-      : threshold_(threshold), histories_(at(sequence.truth_identities)) {
+  ClearAccumulator(const PairedSequence& sequence, double threshold)
+      : threshold_(threshold), histories_(slot(sequence.truth_identities)) {
     scores_.present.resize(histories_.size());
     scores_.matched.resize(histories_.size());
   }
 
   void add(const PairedFrame& frame) {
     const std::size_t before = static_cast<std::size_t>(scores_.tp);
-    for (const int truth : frame.truth) ++scores_.present[at(truth)];
+    for (const int truth : frame.truth) ++scores_.present[slot(truth)];
     if (!frame.truth.empty() && !frame.result.empty()) match(frame);
     const auto matches = scores_.tp - static_cast<std::int64_t>(before);
     scores_.fn += static_cast<std::int64_t>(frame.truth.size()) - matches;
@@ -66,8 +65,9 @@ class Accumulator {
     for (Eigen::Index j = 0; j < score.cols(); ++j) {
       for (Eigen::Index i = 0; i < score.rows(); ++i) {
         const double similarity = frame.values(i, j);
-        const bool continues = histories_[at(frame.truth[static_cast<std::size_t>(i)])].previous ==
-                               frame.result[static_cast<std::size_t>(j)];
+        const bool continues =
+            histories_[slot(frame.truth[static_cast<std::size_t>(i)])].previous ==
+            frame.result[static_cast<std::size_t>(j)];
         score(i, j) = similarity < threshold_ - kEpsilon
                           ? 0.0
                           : (continues ? kContinuationBonus : 0.0) + similarity;
@@ -82,13 +82,13 @@ class Accumulator {
       const int j = assigned[i];
       if (j < 0 || !(score(static_cast<Eigen::Index>(i), j) > kEpsilon)) continue;
       const int truth = frame.truth[i];
-      const int result = frame.result[at(j)];
-      History& history = histories_[at(truth)];
+      const int result = frame.result[slot(j)];
+      History& history = histories_[slot(truth)];
       if (history.last != kNobody && history.last != result) ++scores_.id_switches;
       if (history.previous == kNobody) ++history.starts;
       history.last = result;
-      matched[at(truth)] = result;
-      ++scores_.matched[at(truth)];
+      matched[slot(truth)] = result;
+      ++scores_.matched[slot(truth)];
       ++matches;
       sum += frame.values(static_cast<Eigen::Index>(i), j);
     }
@@ -109,24 +109,24 @@ class Accumulator {
 }  // namespace
 
 double ClearScores::mota() const {
-  return ratio(static_cast<double>(tp - fp - id_switches), tp + fn);
+  return ratio_to_count(static_cast<double>(tp - fp - id_switches), tp + fn);
 }
-double ClearScores::motp() const { return ratio(similarity_sum, tp); }
-double ClearScores::moda() const { return ratio(static_cast<double>(tp - fp), tp + fn); }
-double ClearScores::recall() const { return ratio(static_cast<double>(tp), tp + fn); }
-double ClearScores::precision() const { return ratio(static_cast<double>(tp), tp + fp); }
+double ClearScores::motp() const { return ratio_to_count(similarity_sum, tp); }
+double ClearScores::moda() const { return ratio_to_count(static_cast<double>(tp - fp), tp + fn); }
+double ClearScores::recall() const { return ratio_to_count(static_cast<double>(tp), tp + fn); }
+double ClearScores::precision() const { return ratio_to_count(static_cast<double>(tp), tp + fp); }
 double ClearScores::f1() const {
   return static_cast<double>(tp) /
          std::max(1.0, static_cast<double>(tp) + 0.5 * static_cast<double>(fn) +
                            0.5 * static_cast<double>(fp));
 }
 double ClearScores::smota() const {
-  return ratio(similarity_sum - static_cast<double>(fp) - static_cast<double>(id_switches),
-               tp + fn);
+  return ratio_to_count(similarity_sum - static_cast<double>(fp) - static_cast<double>(id_switches),
+                        tp + fn);
 }
 double ClearScores::motal() const {
   const double switches = id_switches > 0 ? std::log10(static_cast<double>(id_switches)) : 0.0;
-  return ratio(static_cast<double>(tp - fp) - switches, tp + fn);
+  return ratio_to_count(static_cast<double>(tp - fp) - switches, tp + fn);
 }
 
 ClearScores score_clear(const PairedSequence& similarity, double threshold) {
@@ -139,14 +139,14 @@ ClearScores score_clear(const PairedSequence& similarity, double threshold) {
     scores.fn = similarity.truth_count;
     scores.fp = similarity.result_count;
     scores.mostly_lost = similarity.truth_identities;
-    scores.present.resize(at(similarity.truth_identities));
-    scores.matched.resize(at(similarity.truth_identities));
+    scores.present.resize(slot(similarity.truth_identities));
+    scores.matched.resize(slot(similarity.truth_identities));
     for (const PairedFrame& frame : similarity.frames) {
-      for (const int truth : frame.truth) ++scores.present[at(truth)];
+      for (const int truth : frame.truth) ++scores.present[slot(truth)];
     }
     return scores;
   }
-  Accumulator accumulator(similarity, threshold);
+  ClearAccumulator accumulator(similarity, threshold);
   for (const PairedFrame& frame : similarity.frames) accumulator.add(frame);
   return accumulator.finish();
 }

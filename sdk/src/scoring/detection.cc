@@ -1,17 +1,15 @@
 #include "plaza/scoring/detection.h"
 
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
 #include "plaza/math/assignment.h"
+#include "rounding.h"
 
 namespace plaza {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-std::optional<double> ratio(double numerator, double denominator) {
+std::optional<double> known_ratio(double numerator, double denominator) {
   if (denominator == 0) return std::nullopt;
   return numerator / denominator;
 }
@@ -44,25 +42,25 @@ DetectionScores score(const PairedSequence& sequence, const Cost& cost, const Ma
 }  // namespace
 
 std::optional<double> DetectionScores::moda() const {
-  const auto errors = ratio(static_cast<double>(fn + fp), static_cast<double>(tp + fn));
+  const auto errors = known_ratio(static_cast<double>(fn + fp), static_cast<double>(tp + fn));
   if (!errors) return std::nullopt;
   return 1 - *errors;
 }
 std::optional<double> DetectionScores::modp() const {
-  return ratio(goodness_sum, static_cast<double>(tp));
+  return known_ratio(goodness_sum, static_cast<double>(tp));
 }
 std::optional<double> DetectionScores::frame_modp() const {
-  return ratio(std::accumulate(frame_goodness.begin(), frame_goodness.end(), 0.0),
-               static_cast<double>(frame_goodness.size()));
+  return known_ratio(std::accumulate(frame_goodness.begin(), frame_goodness.end(), 0.0),
+                     static_cast<double>(frame_goodness.size()));
 }
 std::optional<double> DetectionScores::precision() const {
-  return ratio(static_cast<double>(tp), static_cast<double>(tp + fp));
+  return known_ratio(static_cast<double>(tp), static_cast<double>(tp + fp));
 }
 std::optional<double> DetectionScores::recall() const {
-  return ratio(static_cast<double>(tp), static_cast<double>(tp + fn));
+  return known_ratio(static_cast<double>(tp), static_cast<double>(tp + fn));
 }
 std::optional<double> DetectionScores::f1() const {
-  return ratio(2 * static_cast<double>(tp), static_cast<double>(2 * tp + fn + fp));
+  return known_ratio(2 * static_cast<double>(tp), static_cast<double>(2 * tp + fn + fp));
 }
 
 DetectionScores score_overlap_detection(const PairedSequence& similarity, double threshold) {

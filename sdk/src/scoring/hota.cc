@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "plaza/math/assignment.h"
+#include "rounding.h"
 
 namespace plaza {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kNoMatch = 1e-10;  // what the localisation of no match is divided by: gives 1
 
 std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
@@ -66,9 +65,9 @@ Eigen::MatrixXd soft_matches(const Eigen::MatrixXd& similarity) {
   return soft;
 }
 
-class Accumulator {
+class HotaAccumulator {
  public:
-  explicit Accumulator(const PairedSequence& sequence)
+  explicit HotaAccumulator(const PairedSequence& sequence)
       : truth_count_(Eigen::VectorXd::Zero(sequence.truth_identities)),
         result_count_(Eigen::VectorXd::Zero(sequence.result_identities)) {
     alignment_ = Eigen::MatrixXd::Zero(sequence.truth_identities, sequence.result_identities);
@@ -174,7 +173,7 @@ double HotaScores::mean(const Array& values) {
 }
 
 HotaScores score_hota(const PairedSequence& similarity) {
-  Accumulator accumulator(similarity);
+  HotaAccumulator accumulator(similarity);
   for (const PairedFrame& frame : similarity.frames) accumulator.match(frame);
   return accumulator.finish();
 }

@@ -36,18 +36,22 @@ IdentityScores score(const PairedSequence& sequence, const Counts& counts) {
   return scores;
 }
 
-double ratio(std::int64_t numerator, double denominator) {
+double ratio_of_count(std::int64_t numerator, double denominator) {
   return static_cast<double>(numerator) / std::max(1.0, denominator);
 }
 
 }  // namespace
 
 double IdentityScores::idf1() const {
-  return ratio(idtp, static_cast<double>(idtp) + 0.5 * static_cast<double>(idfp) +
-                         0.5 * static_cast<double>(idfn));
+  return ratio_of_count(idtp, static_cast<double>(idtp) + 0.5 * static_cast<double>(idfp) +
+                                  0.5 * static_cast<double>(idfn));
 }
-double IdentityScores::idp() const { return ratio(idtp, static_cast<double>(idtp + idfp)); }
-double IdentityScores::idr() const { return ratio(idtp, static_cast<double>(idtp + idfn)); }
+double IdentityScores::idp() const {
+  return ratio_of_count(idtp, static_cast<double>(idtp + idfp));
+}
+double IdentityScores::idr() const {
+  return ratio_of_count(idtp, static_cast<double>(idtp + idfn));
+}
 
 IdentityScores score_identity(const PairedSequence& similarity, double threshold) {
   return score(similarity, [=](double s) { return s >= threshold; });

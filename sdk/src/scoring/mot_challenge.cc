@@ -9,11 +9,11 @@
 
 #include "plaza/core/error.h"
 #include "plaza/math/assignment.h"
+#include "rounding.h"
 
 namespace plaza {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kForgivingOverlap = 0.5;  // part of the rules, whatever the scores' threshold
 
 constexpr int kPedestrian = 1;

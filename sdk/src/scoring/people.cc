@@ -1,21 +1,19 @@
 #include "plaza/scoring/people.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "plaza/math/assignment.h"
 #include "plaza/scoring/mot_challenge.h"
+#include "rounding.h"
 
 namespace plaza {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-bool counts(const TrueView& view) { return view.visibility >= kCountingVisibility; }
+bool is_visible(const TrueView& view) { return view.visibility >= kCountingVisibility; }
 
 bool counts_somewhere(const TruePerson& person) {
-  return std::any_of(person.views.begin(), person.views.end(), counts);
+  return std::any_of(person.views.begin(), person.views.end(), is_visible);
 }
 
 double overlap_of(const Box& truth, const std::optional<Box>& result) {
@@ -41,7 +39,7 @@ double view_overlap(const TruePerson& person, const ResultPerson& result) {
   double sum = 0;
   int views = 0;
   for (const TrueView& view : person.views) {
-    if (!all_views && !counts(view)) continue;
+    if (!all_views && !is_visible(view)) continue;
     ++views;
     if (view.camera < result.boxes.size()) sum += overlap_of(view.box, result.boxes[view.camera]);
   }

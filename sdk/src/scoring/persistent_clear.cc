@@ -32,9 +32,9 @@ struct ResultHistory {
   bool matched = false;
 };
 
-class Accumulator {
+class PersistentAccumulator {
  public:
-  explicit Accumulator(const PairedSequence& sequence)
+  explicit PersistentAccumulator(const PairedSequence& sequence)
       : truths_(at(sequence.truth_identities)), results_(at(sequence.result_identities)) {}
 
   void add(const PairedFrame& frame) {
@@ -158,7 +158,7 @@ std::optional<double> PersistentClearScores::precision() const {
 }
 
 PersistentClearScores score_persistent_clear(const PairedSequence& distance) {
-  Accumulator accumulator(distance);
+  PersistentAccumulator accumulator(distance);
   for (const PairedFrame& frame : distance.frames) accumulator.add(frame);
   return accumulator.finish();
 }

@@ -34,7 +34,7 @@ std::shared_ptr<const Scene> parse(const std::string& text) {
   return parse_scene(parse_json(text, "scene.json"));
 }
 
-std::string fault(const std::string& text) {
+std::string scene_fault(const std::string& text) {
   try {
     parse(text);
   } catch (const UserError& error) {
@@ -141,7 +141,7 @@ TEST(SceneFileTest, MatricesOfHomographiesMayStandInAFile) {
 TEST(SceneFileTest, FaultsOfSeveralCamerasAreReportedTogether) {
   const std::string bad = R"({"format": "pinhole", "fx_px": -1, "fy_px": 600, "cx_px": 320,
       "centre_m": [-8, 0, 3], "look_at_m": [0, 0, 1]})";
-  const std::string errors = fault(
+  const std::string errors = scene_fault(
       R"({"plaza_scene": 1, "name": "Yard", "frame_rate_hz": 0, "area": {"x_m": [0, 1], "y_m": [0, 1]},
       "cameras": [{"name": "a", "image_size": [640, 480], "calibration": )" +
       bad + R"(}, {"name": "b", "image_size": [0, 480], "calibration": )" + bad + "}]}");
@@ -153,8 +153,8 @@ TEST(SceneFileTest, FaultsOfSeveralCamerasAreReportedTogether) {
 }
 
 TEST(SceneFileTest, RootMustBeAnObject) {
-  EXPECT_EQ(fault("[1]"), "scene.json:1:1: must be an object, { ... }");
-  EXPECT_THAT(fault("{}"), HasSubstr("\"plaza_scene\" is missing"));
+  EXPECT_EQ(scene_fault("[1]"), "scene.json:1:1: must be an object, { ... }");
+  EXPECT_THAT(scene_fault("{}"), HasSubstr("\"plaza_scene\" is missing"));
 }
 
 TEST(SceneFileTest, SchemaAcceptsTheShippedScenesAndRefusesBrokenOnes) {

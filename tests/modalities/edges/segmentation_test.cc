@@ -8,23 +8,23 @@
 namespace plaza::edges {
 namespace {
 
-const cv::Size kSize(40, 30);
+const cv::Size kLabelSize(40, 30);
 
 /// Edges at the given pixels, all with one gradient.
 EdgeImage image_of(const std::vector<cv::Point>& pixels, cv::Vec2s gradient = {100, 0}) {
   EdgeImage image;
-  image.edges = cv::Mat1b(kSize, uchar{0});
-  image.dx = cv::Mat1s(kSize, gradient[0]);
-  image.dy = cv::Mat1s(kSize, gradient[1]);
-  image.grey = cv::Mat1b(kSize, uchar{0});
+  image.edges = cv::Mat1b(kLabelSize, uchar{0});
+  image.dx = cv::Mat1s(kLabelSize, gradient[0]);
+  image.dy = cv::Mat1s(kLabelSize, gradient[1]);
+  image.grey = cv::Mat1b(kLabelSize, uchar{0});
   for (const cv::Point& p : pixels) image.edges(p) = 255;
   return image;
 }
 
 ViewBackground background_of(const std::vector<cv::Point>& pixels, cv::Vec2f gradient = {1, 0}) {
-  cv::Mat1b edges(kSize, uchar{0});
+  cv::Mat1b edges(kLabelSize, uchar{0});
   for (const cv::Point& p : pixels) edges(p) = 255;
-  return make_background(edges, cv::Mat2f(kSize, gradient), 2);
+  return make_background(edges, cv::Mat2f(kLabelSize, gradient), 2);
 }
 
 std::vector<cv::Point> column(int x, int top, int bottom) {
@@ -34,7 +34,7 @@ std::vector<cv::Point> column(int x, int top, int bottom) {
 }
 
 struct Segmented {
-  LabelImage labels{kSize};
+  LabelImage labels{kLabelSize};
   std::vector<EdgePoint> points;
 };
 
@@ -146,7 +146,7 @@ TEST(LabelImage, HasABorderThatNobodyLabels) {
   const Segmented s = run(image_of({{0, 0}, {39, 29}}), nullptr, kUnlinked);
   EXPECT_EQ(s.labels.at(-1, -1), 0);
   EXPECT_EQ(s.labels.at(40, 30), 0);
-  EXPECT_EQ(s.labels.size(), kSize);
+  EXPECT_EQ(s.labels.size(), kLabelSize);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using testing::GnnScript;
 
-Gnn::Options options() {
+Gnn::Options emission_options() {
   Gnn::Options o;
   o.confirm = 2;
   o.max_count = 8;
@@ -20,7 +20,7 @@ Gnn::Options options() {
 }
 
 TEST(GnnEmission, WithoutSmoothingObservedPointsAreFinalAtOnce) {
-  GnnScript script(options());
+  GnnScript script(emission_options());
   script.see({{0, 0}});
   script.see({{0.1, 0}});
   const AssociatorOutput now = script.see({{0.2, 0}});
@@ -30,7 +30,7 @@ TEST(GnnEmission, WithoutSmoothingObservedPointsAreFinalAtOnce) {
 }
 
 TEST(GnnEmission, CoastingPointsAreOpenUntilAnObservationBridgesTheGap) {
-  GnnScript script(options());
+  GnnScript script(emission_options());
   for (int i = 0; i < 6; ++i) script.see({{0.1 * i, 0}});
   for (int i = 6; i < 9; ++i) {
     const AssociatorOutput open = script.see_nobody();
@@ -49,7 +49,7 @@ TEST(GnnEmission, CoastingPointsAreOpenUntilAnObservationBridgesTheGap) {
 
 TEST(GnnEmission, WhoDoesNotComeBackIsPutOutForTheDeclaredTimeOnly) {
   for (const double coast_s : {0.0, 0.3}) {
-    Gnn::Options o = options();
+    Gnn::Options o = emission_options();
     o.coast_s = coast_s;
     GnnScript script(o);
     for (int i = 0; i < 6; ++i) script.see({{0.1 * i, 0}});
@@ -62,7 +62,7 @@ TEST(GnnEmission, WhoDoesNotComeBackIsPutOutForTheDeclaredTimeOnly) {
 TEST(GnnEmission, SmoothedPointsWaitForTheWindowAndAreBetter) {
   double error[2] = {0, 0};
   for (const bool smooth : {false, true}) {
-    Gnn::Options o = options();
+    Gnn::Options o = emission_options();
     o.smoothing_s = smooth ? 0.5 : 0.0;
     GnnScript script(o);
     for (int i = 0; i < 40; ++i) {
@@ -83,7 +83,7 @@ TEST(GnnEmission, SmoothedPointsWaitForTheWindowAndAreBetter) {
 
 TEST(GnnEmission, OnlyPointsInsideTheAreaArePutOut) {
   for (const double margin_m : {0.0, 0.5}) {
-    Gnn::Options o = options();
+    Gnn::Options o = emission_options();
     o.margin_m = margin_m;
     GnnScript script(o);
     for (int i = 0; i < 20; ++i) script.see({{9.05 + 0.1 * i, 0}});
@@ -96,7 +96,7 @@ TEST(GnnEmission, OnlyPointsInsideTheAreaArePutOut) {
 }
 
 TEST(GnnEmission, PeopleFaceWhereTheyWalkAndElseAsObserved) {
-  GnnScript script(options());
+  GnnScript script(emission_options());
   for (int i = 0; i < 30; ++i) {
     Observations o;
     o.items.resize(2);
@@ -116,14 +116,14 @@ TEST(GnnEmission, PeopleFaceWhereTheyWalkAndElseAsObserved) {
 }
 
 TEST(GnnEmission, StandingPeopleWithoutObservedHeadingHaveNone) {
-  GnnScript script(options());
+  GnnScript script(emission_options());
   for (int i = 0; i < 10; ++i) script.see({{1, 1}});
   script.flush();
   EXPECT_FALSE(script.final_points().at(9).at(1).heading_rad);
 }
 
 TEST(GnnEmission, BoxesOfTheObservationComeAlong) {
-  GnnScript script(options());
+  GnnScript script(emission_options());
   for (int i = 0; i < 3; ++i) {
     Observations o;
     o.items.resize(1);
@@ -139,7 +139,7 @@ TEST(GnnEmission, BoxesOfTheObservationComeAlong) {
 }
 
 TEST(GnnEmission, TrackletsAreTheFinalPathsWhenTheyEnd) {
-  GnnScript script(options());
+  GnnScript script(emission_options());
   for (int i = 0; i < 10; ++i) script.see({{0, 0}, {3, 0}});
   for (int i = 0; i < 10; ++i) script.see({{0, 0}});  // the second one is gone after 8 frames
   ASSERT_EQ(script.tracklets().size(), 1U);

@@ -14,11 +14,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using testing_support::follow_one;
+using testing_support::matrix;
 using testing_support::sequence_of;
-
-Eigen::MatrixXd matrix(std::initializer_list<std::initializer_list<double>> rows) {
-  return Eigen::MatrixXd(rows);
-}
 
 TEST(Clear, CountsWhatIsThere) {
   const ClearScores s =

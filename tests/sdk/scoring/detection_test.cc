@@ -10,11 +10,8 @@
 namespace plaza {
 namespace {
 
+using testing_support::matrix;
 using testing_support::sequence_of;
-
-Eigen::MatrixXd matrix(std::initializer_list<std::initializer_list<double>> rows) {
-  return Eigen::MatrixXd(rows);
-}
 
 TEST(OverlapDetection, CountsAndAverages) {
   const DetectionScores s = score_overlap_detection(

@@ -9,13 +9,10 @@
 namespace plaza {
 namespace {
 
+using testing_support::matrix;
 using testing_support::sequence_of;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-
-Eigen::MatrixXd matrix(std::initializer_list<std::initializer_list<double>> rows) {
-  return Eigen::MatrixXd(rows);
-}
 
 TEST(PersistentClear, TakesUpAnOldIdentityAfterAnyGap) {
   const PersistentClearScores s =

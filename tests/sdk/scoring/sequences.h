@@ -16,6 +16,10 @@ struct FrameOf {
   Eigen::MatrixXd values;
 };
 
+inline Eigen::MatrixXd matrix(std::initializer_list<std::initializer_list<double>> rows) {
+  return Eigen::MatrixXd(rows);
+}
+
 /// Frames 1, 2, ...
 inline PairedSequence sequence_of(const std::vector<FrameOf>& frames) {
   PairedSequenceBuilder builder;

@@ -66,9 +66,9 @@ TEST(LocalMaxima, AreHigherThanAllWithinTheGate) {
   surface[at(8, 0)] = kNan;
   const std::vector<char> all(kCells, 1);
   const auto maxima = local_maxima(kGrid, surface, all, neighbours);
-  EXPECT_THAT(maxima, testing::IsSupersetOf({at(1, 3), at(3, 3)}));
-  EXPECT_THAT(maxima, testing::Not(testing::Contains(at(3, 5))));
-  EXPECT_THAT(maxima, testing::Not(testing::Contains(at(8, 0))));
+  EXPECT_THAT(maxima, ::testing::IsSupersetOf({at(1, 3), at(3, 3)}));
+  EXPECT_THAT(maxima, ::testing::Not(::testing::Contains(at(3, 5))));
+  EXPECT_THAT(maxima, ::testing::Not(::testing::Contains(at(8, 0))));
 }
 
 TEST(LocalMaxima, OfEqualNeighboursTheFirstStays) {
@@ -76,10 +76,10 @@ TEST(LocalMaxima, OfEqualNeighboursTheFirstStays) {
   std::vector<double> surface(kCells, kNan);
   surface[at(4, 3)] = surface[at(5, 3)] = 1;
   const std::vector<char> all(kCells, 1);
-  EXPECT_THAT(local_maxima(kGrid, surface, all, neighbours), testing::ElementsAre(at(4, 3)));
+  EXPECT_THAT(local_maxima(kGrid, surface, all, neighbours), ::testing::ElementsAre(at(4, 3)));
   std::vector<char> not_the_first = all;
   not_the_first[at(4, 3)] = 0;
-  EXPECT_THAT(local_maxima(kGrid, surface, not_the_first, neighbours), testing::IsEmpty())
+  EXPECT_THAT(local_maxima(kGrid, surface, not_the_first, neighbours), ::testing::IsEmpty())
       << "an equal cell that is no candidate still counts";
 }
 

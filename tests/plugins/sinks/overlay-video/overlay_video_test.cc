@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::set<std::string> names_in(const std::filesystem::path& folder) {
+std::set<std::string> pictures_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     names.insert(entry.path().filename());
@@ -46,7 +46,7 @@ TEST(OverlayVideo, WritesAVideoOfEveryFrameAndTheStills) {
     const auto frames = r.video();
     ASSERT_EQ(frames.size(), 5U) << cameras << " cameras";
     EXPECT_EQ(frames[0].size(), r.layout().canvas);
-    EXPECT_EQ(names_in(r.folder.path()),
+    EXPECT_EQ(pictures_in(r.folder.path()),
               (std::set<std::string>{"overlay.mp4", "overlay-000002.png", "overlay-000004.png"}));
     EXPECT_EQ(r.still(1).size(), r.layout().canvas);
     ASSERT_EQ(r.artifacts.size(), 3U);
@@ -79,7 +79,7 @@ TEST(OverlayVideo, EndedBeforeTheFirstFrameItLeavesNothing) {
   r.stop = 0;
   r.run();
   EXPECT_TRUE(r.artifacts.empty());
-  EXPECT_TRUE(names_in(r.folder.path()).empty());
+  EXPECT_TRUE(pictures_in(r.folder.path()).empty());
 }
 
 TEST(OverlayVideo, EndWithoutBeginIsHarmless) {
@@ -109,7 +109,7 @@ TEST(OverlayVideo, StillsOutsideOfTheRunAreLeftOut) {
   r.options.stills = 0;
   r.options.still_frames = {1, 11, 13, 14, 500};
   r.run();
-  EXPECT_EQ(names_in(r.folder.path()),
+  EXPECT_EQ(pictures_in(r.folder.path()),
             (std::set<std::string>{"overlay.mp4", "overlay-000011.png", "overlay-000013.png"}));
 }
 
@@ -118,7 +118,7 @@ TEST(OverlayVideo, StillsAreNamedAfterTheVideo) {
   r.options.file = "branch-b.avi";
   r.options.stills = 1;
   r.run();
-  EXPECT_EQ(names_in(r.folder.path()),
+  EXPECT_EQ(pictures_in(r.folder.path()),
             (std::set<std::string>{"branch-b.avi", "branch-b-000003.png"}));
 }
 
