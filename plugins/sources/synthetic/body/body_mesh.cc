@@ -1,5 +1,7 @@
 #include "plugins/sources/synthetic/body/body_mesh.h"
 
+#include <map>
+
 #include "plugins/sources/synthetic/body/surface_nets.h"
 
 namespace plaza::synthetic {
@@ -26,8 +28,8 @@ BodyMesh::BodyMesh(const Proportions& proportions, const Look& look, float edge_
     const float miss = std::clamp(shape.distance(p), -0.5f * edge_m, 0.5f * edge_m);
     p -= miss * rest_normals_.back();
     weights_.push_back(shape.weights(p));
-    main_segment_.push_back(weights_.back().segment[0]);
   }
+  divide_into_patches();
   constexpr float kPart = 1.0f / kDivisions;
   texels_.reserve(triangles_.size() * kDivisions * kDivisions);
   for (const auto& t : triangles_) {
@@ -41,6 +43,19 @@ BodyMesh::BodyMesh(const Proportions& proportions, const Look& look, float edge_
         texels_.push_back(clothes_.at(a + u * ab + v * ac));
       }
     }
+  }
+}
+
+void BodyMesh::divide_into_patches() {
+  constexpr float kWidth = 0.16f;  // metres
+  std::map<std::array<int, 4>, std::uint16_t> known;
+  for (std::size_t v = 0; v < rest_.size(); ++v) {
+    const Eigen::Vector3i cell = (rest_[v] / kWidth).array().floor().cast<int>();
+    const std::uint8_t segment = weights_[v].segment[0];
+    const auto [place, fresh] = known.try_emplace({segment, cell.x(), cell.y(), cell.z()},
+                                                  static_cast<std::uint16_t>(known.size()));
+    if (fresh) patch_segments_.push_back(segment);
+    patches_.push_back(place->second);
   }
 }
 

@@ -25,8 +25,10 @@ class BodyMesh {
   /// What is seen at a point of a triangle, given by its barycentric coordinates of the second and
   /// third corner: baked at the centres of kDivisions^2 equal parts of each triangle.
   const BodySurface& surface(std::uint32_t triangle, float u, float v) const;
-  /// The segment that each vertex follows most.
-  const std::vector<std::uint8_t>& main_segment() const { return main_segment_; }
+  /// Which patch of the surface each vertex belongs to: of one segment, 0.16 m wide in bind pose.
+  const std::vector<std::uint16_t>& patches() const { return patches_; }
+  /// The segment that a patch follows most.
+  const std::vector<std::uint8_t>& patch_segments() const { return patch_segments_; }
 
   /// World positions of all vertices; the span holds vertex_count() entries.
   void place(const BodyPose& pose, std::span<Vec3> positions) const;
@@ -36,12 +38,14 @@ class BodyMesh {
  private:
   static constexpr int kDivisions = 4;
   using Transform = Eigen::Matrix<float, 3, 4>;
+  void divide_into_patches();
   std::array<Transform, kSegmentCount> moves(const BodyPose& pose) const;
 
   Clothes clothes_;
   BodyPose bind_;
   std::vector<BodySurface> texels_;
-  std::vector<std::uint8_t> main_segment_;
+  std::vector<std::uint16_t> patches_;
+  std::vector<std::uint8_t> patch_segments_;
   std::vector<Vec3> rest_;
   std::vector<Vec3> rest_normals_;
   std::vector<SkinWeights> weights_;

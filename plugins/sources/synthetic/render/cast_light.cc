@@ -10,7 +10,11 @@
 namespace plaza::synthetic {
 namespace {
 
-constexpr int kSmoothing = 3;  // px
+constexpr int kSmoothing = 4;  // px
+constexpr int kDark = 2;       // blocked rays of scouts that call for more
+
+/// The pixel of a square of 2 x 2 that lies across from the scout.
+bool is_second(int x, int y) { return is_scout(x ^ 1, y ^ 1); }
 
 }  // namespace
 
@@ -19,7 +23,7 @@ struct ViewRenderer::Shade {
   const PeopleScene& people;
   const LightGains& gains;
   std::uint32_t key;
-  std::vector<Rgbw> lost;
+  std::vector<Rgbw> lost;  // w counts the rays
 
   // of one tile
   std::vector<RayQuery> towards_light = {}, around = {};
@@ -55,9 +59,10 @@ void ViewRenderer::aim_at_light(std::uint32_t mask, int x, int y, std::size_t pi
     total += weight[l + 1];
   }
   if (total <= 0) return;
-  // neighbours choose different lights
+  // neighbours choose different lights: the scouts of a square one of each quarter of the light,
+  // and so do the seconds
   const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ shade.key);
-  float choice = rank_in_square(x, y, to_unit(random)) * total;
+  float choice = 0.25f * (static_cast<float>(rank_in_square(x, y) / 4) + to_unit(random)) * total;
   std::size_t which = 0;
   while (which < view_.lights && (choice >= weight[which] || weight[which] <= 0)) {
     choice -= weight[which];
@@ -84,14 +89,14 @@ void ViewRenderer::aim_at_light(std::uint32_t mask, int x, int y, std::size_t pi
   }
 }
 
-bool ViewRenderer::shoot(Shade& shade) const {
-  bool any = false;
+int ViewRenderer::shoot(Shade& shade) const {
+  int count = 0;
   std::array<std::uint8_t, kTilePixels> blocked;
   shade.people.blocked(shade.towards_light, blocked);
   for (std::size_t i = 0; i < shade.light.size(); ++i) {
     if (blocked[i] == 0) continue;
     shade.lost[shade.light[i].first].head<3>() += shade.light[i].second;
-    any = true;
+    ++count;
   }
   std::array<std::optional<RayHit>, kTilePixels> hits;
   shade.people.trace(shade.around, hits);
@@ -99,13 +104,13 @@ bool ViewRenderer::shoot(Shade& shade) const {
     if (!hits[i]) continue;
     const float far = hits[i]->distance / kContactReach;
     shade.lost[shade.near[i].first].head<3>() += (1 - far * far) * shade.near[i].second;
-    any = true;
+    ++count;
   }
   shade.towards_light.clear();
   shade.around.clear();
   shade.light.clear();
   shade.near.clear();
-  return any;
+  return count;
 }
 
 void ViewRenderer::cast_sun(const PeopleScene& people, float gain, std::uint32_t key, int x, int y,
@@ -140,7 +145,8 @@ void ViewRenderer::cast_shadows(const PeopleScene& people, const LightGains& gai
               .gains = gains,
               .key = hash32(key),
               .lost = std::vector<Rgbw>(view_.pixels(), Rgbw::Zero())};
-  std::vector<std::uint8_t> darker(grid_.count(), 0);
+  // a quarter of the pixels, and half of them around where these find more than a trace of shadow
+  std::vector<std::uint8_t> shaded(grid_.count(), 0), dark(grid_.count(), 0);
   for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
     const std::uint32_t mask = canvas.shaded[tile];
     if (mask == 0 && !options_.everywhere) continue;
@@ -151,7 +157,7 @@ void ViewRenderer::cast_shadows(const PeopleScene& people, const LightGains& gai
         shade.lost[pixel].head<3>() +=
             lost_to_others(people, view_.point[pixel] + 2e-3f * n, n, mask,
                            hash32(static_cast<std::uint32_t>(pixel) ^ shade.key), pixel);
-        if (!shade.lost[pixel].isZero(0)) darker[tile] = 1;
+        if (!shade.lost[pixel].isZero(0)) shaded[tile] = 1;
       }
       // the sun's shadows are sharp: all samples of the pixel, and no smoothing
       if (!lights_.soft() && (mask & 2u) != 0) {
@@ -159,25 +165,35 @@ void ViewRenderer::cast_shadows(const PeopleScene& people, const LightGains& gai
       }
       if (is_scout(x, y)) aim_at_light(mask, x, y, pixel, shade);
     });
-    if (shoot(shade)) darker[tile] = 1;
+    const int blocked = shoot(shade);
+    if (blocked > 0) shaded[tile] = 1;
+    if (blocked >= kDark) dark[tile] = 1;
   }
-  // all the other pixels, but only where a quarter of them has found a shadow: what stays hidden
-  // from so many rays takes less than a hundredth of the light
-  const std::vector<std::uint8_t> nearby = grid_.with_neighbours(darker);
+  const std::vector<std::uint8_t> around_dark = grid_.with_neighbours(dark);
   for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
-    if (nearby[tile] == 0 || canvas.shaded[tile] == 0) continue;
+    if (around_dark[tile] == 0 || canvas.shaded[tile] == 0) continue;
     grid_.each_pixel(tile, [&](int x, int y, std::size_t pixel) {
-      if (view_.sky(pixel) || is_scout(x, y)) return;
-      aim_at_light(canvas.shaded[tile], x, y, pixel, shade);
+      if (is_second(x, y) && !view_.sky(pixel)) {
+        aim_at_light(canvas.shaded[tile], x, y, pixel, shade);
+      }
     });
-    shoot(shade);
+    if (shoot(shade) > 0) shaded[tile] = 1;
   }
-  const std::vector<std::uint8_t> changed = view_.smoother().smooth(kSmoothing, nearby, shade.lost);
+  const std::vector<std::uint8_t> around = grid_.with_neighbours(shaded);
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    if (around[tile] == 0) continue;
+    grid_.each_pixel(tile, [&](int x, int y, std::size_t pixel) {
+      if (is_scout(x, y) || (around_dark[tile] != 0 && is_second(x, y))) shade.lost[pixel].w() = 1;
+    });
+  }
+  const std::vector<std::uint8_t> changed = view_.smoother().smooth(kSmoothing, around, shade.lost);
   auto* out = canvas.image.ptr<Vec3>();
   for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
     if (changed[tile] == 0) continue;
     grid_.each_pixel(tile, [&](int, int, std::size_t pixel) {
-      const Rgb kept = view_.albedo[pixel].cwiseProduct(shade.lost[pixel].head<3>()) / kPi;
+      const Rgbw& lost = shade.lost[pixel];
+      if (lost.w() <= 0) return;
+      const Rgb kept = view_.albedo[pixel].cwiseProduct(lost.head<3>()) / (kPi * lost.w());
       out[pixel] = (out[pixel] - kept).cwiseMax(0.0f);
     });
   }

@@ -74,7 +74,9 @@ void ViewRenderer::aim_at_people(std::size_t pixel, int x, int y, int sample, st
       (static_cast<float>((sample * 3 + turn) % n) + to_unit(hash32(mine))) / static_cast<float>(n);
   batch.rays.push_back(ray);
   batch.samples.push_back(
-      {.pixel = pixel, .random = mine, .rank = rank_in_square(x, y, to_unit(hash32(mine + 1)))});
+      {.pixel = pixel,
+       .random = mine,
+       .rank = (static_cast<float>(rank_in_square(x, y)) + to_unit(hash32(mine + 1))) / 16});
 }
 
 void ViewRenderer::take(const PeopleScene& people, const LightGains& gains, Batch& batch,

@@ -12,32 +12,37 @@ constexpr int kSmoothing = 3;  // px
 
 }  // namespace
 
+RayQuery ViewRenderer::mirrored_ray(std::size_t pixel, std::uint32_t random) const {
+  const Vec3& n = view_.normal[pixel];
+  const Vec3 jitter(to_unit(random) - 0.5f, to_unit(hash32(random + 1)) - 0.5f,
+                    to_unit(hash32(random + 2)) - 0.5f);
+  const Vec3 micro = (n + 2 * view_.roughness[pixel] * jitter).normalized();
+  const Vec3 view = (view_.point[pixel] - view_.rays().origin()).normalized();
+  RayQuery ray;
+  ray.direction = view - 2 * view.dot(micro) * micro;
+  if (ray.direction.dot(n) < 0.02f) ray.direction = view - 2 * view.dot(n) * n;
+  ray.origin = view_.point[pixel] + 2e-3f * n;
+  ray.reach = kMirrorReach;
+  ray.time = to_unit(hash32(random + 3));
+  return ray;
+}
+
 void ViewRenderer::mirror_people(const PeopleScene& people, const LightGains& gains,
                                  std::uint32_t key, Canvas& canvas) const {
-  // what is mirrored is faint and blurred: one pixel of 2 x 2 looks, w counts them
+  // what is mirrored is faint and blurred: one pixel of 2 x 2 looks, w counts them; and only one of
+  // 4 x 4 where none of these sees anybody
   std::vector<Rgbw> change(view_.pixels(), Rgbw::Zero());
   std::vector<std::uint8_t> seen(grid_.count(), 0);
   std::vector<std::size_t> pixels;
   std::vector<RayQuery> queries;
   std::array<std::optional<RayHit>, kTilePixels> hits;
-  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
-    if (canvas.mirrors[tile] == 0) continue;
+  const std::uint32_t mixed = hash32(key);
+  const auto look = [&](std::size_t tile, bool first) {
     pixels.clear();
     queries.clear();
     grid_.each_pixel(tile, [&](int x, int y, std::size_t pixel) {
-      if (!is_scout(x, y) || view_.mirror[pixel] <= 0) return;
-      const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ hash32(key));
-      const Vec3& n = view_.normal[pixel];
-      const Vec3 jitter(to_unit(random) - 0.5f, to_unit(hash32(random + 1)) - 0.5f,
-                        to_unit(hash32(random + 2)) - 0.5f);
-      const Vec3 micro = (n + 2 * view_.roughness[pixel] * jitter).normalized();
-      const Vec3 view = (view_.point[pixel] - view_.rays().origin()).normalized();
-      RayQuery& ray = queries.emplace_back();
-      ray.direction = view - 2 * view.dot(micro) * micro;
-      if (ray.direction.dot(n) < 0.02f) ray.direction = view - 2 * view.dot(n) * n;
-      ray.origin = view_.point[pixel] + 2e-3f * n;
-      ray.reach = kMirrorReach;
-      ray.time = to_unit(hash32(random + 3));
+      if (!is_scout(x, y) || is_forerunner(x, y) != first || view_.mirror[pixel] <= 0) return;
+      queries.push_back(mirrored_ray(pixel, hash32(static_cast<std::uint32_t>(pixel) ^ mixed)));
       pixels.push_back(pixel);
     });
     people.trace(queries, hits);
@@ -54,6 +59,13 @@ void ViewRenderer::mirror_people(const PeopleScene& people, const LightGains& ga
       change[pixel].head<3>() = view_.mirror[pixel] * at.surface->albedo.cwiseProduct(light) / kPi -
                                 gains.ambient * view_.mirrored[pixel];
     }
+  };
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    if (canvas.mirrors[tile] != 0) look(tile, true);
+  }
+  const std::vector<std::uint8_t> nearby = grid_.with_neighbours(seen);
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    if (canvas.mirrors[tile] != 0 && nearby[tile] != 0) look(tile, false);
   }
   // pixels that look share out what they see among those that don't, on the same surface
   const std::vector<std::uint8_t> around = grid_.with_neighbours(seen);

@@ -151,6 +151,7 @@ PeopleScene::PeopleScene(std::shared_ptr<const RayDevice> device, std::vector<Mo
     : RayScene(std::move(device), false), bodies_(std::move(bodies)) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const MovingBody& body = bodies_[i];
+    bounds_.push_back(bounds_of(body));
     RTCGeometry geometry = rtcNewGeometry(this->device(), RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryTimeStepCount(geometry, 2);
     set_vertices(geometry, 0, body.open);

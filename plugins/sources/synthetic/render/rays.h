@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "plugins/sources/synthetic/body/body_mesh.h"
+#include "plugins/sources/synthetic/render/body_bounds.h"
 #include "plugins/sources/synthetic/stage/stage_model.h"
 
 namespace plaza::synthetic {
@@ -98,9 +99,11 @@ class PeopleScene final : public RayScene {
   PeopleScene(std::shared_ptr<const RayDevice> device, std::vector<MovingBody> bodies);
   /// By RayHit::geometry.
   const std::vector<MovingBody>& bodies() const { return bodies_; }
+  const std::vector<BodyBounds>& bounds() const { return bounds_; }
 
  private:
   std::vector<MovingBody> bodies_;
+  std::vector<BodyBounds> bounds_;
 };
 
 }  // namespace plaza::synthetic

@@ -11,31 +11,6 @@
 namespace plaza::synthetic {
 namespace {
 
-Ball ball_of(const Eigen::AlignedBox3f& box) {
-  const Vec3 c = box.center();
-  return {c.x(), c.y(), c.z(), 0.5f * box.diagonal().norm()};
-}
-
-BodyBalls balls_of(const MovingBody& body) {
-  BodyBalls out;
-  Eigen::AlignedBox3f whole;
-  const auto& segment = body.mesh->main_segment();
-  for (std::size_t v = 0; v < body.open.size(); ++v) {
-    out.boxes[segment[v]].extend(body.open[v]);
-    out.boxes[segment[v]].extend(body.close[v]);
-  }
-  for (auto& box : out.boxes) {
-    if (box.isEmpty()) continue;
-    // triangles reach from one segment's vertices to the next one's
-    box.min() -= Vec3::Constant(0.03f);
-    box.max() += Vec3::Constant(0.03f);
-    whole.extend(box);
-    out.segments.push_back(ball_of(box));
-  }
-  out.whole = ball_of(whole);
-  return out;
-}
-
 /// Whether a ball may touch the round cone from one ball to another.
 bool in_cone(const Ball& from, const Ball& to, const Ball& b) {
   const Vec3 axis = to.head<3>() - from.head<3>();
@@ -84,7 +59,6 @@ cv::Mat ViewRenderer::empty(const LightGains& gains) const {
 }
 
 void ViewRenderer::choose_tiles(const PeopleScene& people, Canvas& canvas) const {
-  for (const MovingBody& body : people.bodies()) canvas.bodies.push_back(balls_of(body));
   const std::size_t count = tile_balls_.size();
   canvas.shaded.assign(count, 0);
   canvas.mirrors.assign(count, options_.everywhere ? 1 : 0);
@@ -96,7 +70,7 @@ void ViewRenderer::choose_tiles(const PeopleScene& people, Canvas& canvas) const
     const Ball& tile = tile_balls_[t];
     if (tile.w() < 0) continue;
     const Vec3 c = tile.head<3>();
-    for (const BodyBalls& body : canvas.bodies) {
+    for (const BodyBounds& body : people.bounds()) {
       const float near = kContactReach + tile.w();
       const auto touches = [&](const Ball& b) {
         const float reach = near + b.w();
@@ -122,10 +96,9 @@ void ViewRenderer::choose_tiles(const PeopleScene& people, Canvas& canvas) const
       }
     }
   }
-  // where the segments appear
-  for (const BodyBalls& body : canvas.bodies) {
-    for (const auto& box : body.boxes) {
-      if (box.isEmpty()) continue;
+  // where the surface appears
+  for (const BodyBounds& body : people.bounds()) {
+    for (const auto& box : body.patches) {
       Eigen::AlignedBox2d seen;
       bool behind = false;
       for (int corner = 0; corner < 8; ++corner) {

@@ -48,10 +48,11 @@ class ViewRenderer {
                      std::uint32_t random, std::size_t pixel) const;
   void mirror_people(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
                      Canvas& canvas) const;
+  RayQuery mirrored_ray(std::size_t pixel, std::uint32_t random) const;
   /// Adds the ray that asks for one pixel whether people keep off light, of those that `mask` has.
   void aim_at_light(std::uint32_t mask, int x, int y, std::size_t pixel, Shade& shade) const;
-  /// Shoots the rays that were added. Whether any light is kept off.
-  bool shoot(Shade& shade) const;
+  /// Shoots the rays that were added. How many of them are kept off.
+  int shoot(Shade& shade) const;
   void cast_sun(const PeopleScene& people, float gain, std::uint32_t key, int x, int y,
                 std::size_t pixel, cv::Mat& image) const;
   /// Adds the ray of one sample of a pixel.
