@@ -1,10 +1,39 @@
 #include "plugins/sources/synthetic/body/body_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "plugins/sources/synthetic/body/surface_nets.h"
 
 namespace plaza::synthetic {
+
+namespace {
+
+constexpr float kAlbedoSteps = 32768;
+constexpr float kBumpSteps = 256;
+constexpr float kGlossSteps = 512;
+
+template <class Integer>
+Integer steps(float value) {
+  using Limits = std::numeric_limits<Integer>;
+  return static_cast<Integer>(std::clamp(std::round(value), static_cast<float>(Limits::min()),
+                                         static_cast<float>(Limits::max())));
+}
+
+}  // namespace
+
+BodyMesh::Texel BodyMesh::pack(const BodySurface& surface) {
+  Texel out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    out.albedo[k] = steps<std::uint16_t>(kAlbedoSteps * surface.albedo[axis]);
+    out.bump[k] = steps<std::int8_t>(kBumpSteps * surface.bump[axis]);
+  }
+  out.gloss = steps<std::uint8_t>(kGlossSteps * surface.gloss);
+  return out;
+}
 
 BodyMesh::BodyMesh(const Proportions& proportions, const Look& look, float edge_m)
     : clothes_(BodyShape(proportions, look), look), bind_(clothes_.shape().bind_pose()) {
@@ -40,7 +69,7 @@ BodyMesh::BodyMesh(const Proportions& proportions, const Look& look, float edge_
         const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
         const float u = (static_cast<float>(i) + third) * kPart;
         const float v = (static_cast<float>(column) + third) * kPart;
-        texels_.push_back(clothes_.at(a + u * ab + v * ac));
+        texels_.push_back(pack(clothes_.at(a + u * ab + v * ac)));
       }
     }
   }
@@ -59,7 +88,7 @@ void BodyMesh::divide_into_patches() {
   }
 }
 
-const BodySurface& BodyMesh::surface(std::uint32_t triangle, float u, float v) const {
+BodySurface BodyMesh::surface(std::uint32_t triangle, float u, float v) const {
   const float x = u * kDivisions, y = v * kDivisions;
   const int i = std::clamp(static_cast<int>(x), 0, kDivisions - 1);
   const int j = std::clamp(static_cast<int>(y), 0, kDivisions - 1 - i);
@@ -67,7 +96,15 @@ const BodySurface& BodyMesh::surface(std::uint32_t triangle, float u, float v) c
       x - static_cast<float>(i) + y - static_cast<float>(j) > 1 && j < kDivisions - 1 - i;
   // rows before this one hold 2 D - 1, 2 D - 3, ... parts
   const int at = i * (2 * kDivisions - i) + 2 * j + (inverted ? 1 : 0);
-  return texels_[triangle * kDivisions * kDivisions + static_cast<std::size_t>(at)];
+  const Texel& texel = texels_[triangle * kDivisions * kDivisions + static_cast<std::size_t>(at)];
+  BodySurface out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    out.albedo[axis] = static_cast<float>(texel.albedo[k]) / kAlbedoSteps;
+    out.bump[axis] = static_cast<float>(texel.bump[k]) / kBumpSteps;
+  }
+  out.gloss = static_cast<float>(texel.gloss) / kGlossSteps;
+  return out;
 }
 
 std::array<BodyMesh::Transform, kSegmentCount> BodyMesh::moves(const BodyPose& pose) const {

@@ -24,7 +24,7 @@ class BodyMesh {
   const Clothes& clothes() const { return clothes_; }
   /// What is seen at a point of a triangle, given by its barycentric coordinates of the second and
   /// third corner: baked at the centres of kDivisions^2 equal parts of each triangle.
-  const BodySurface& surface(std::uint32_t triangle, float u, float v) const;
+  BodySurface surface(std::uint32_t triangle, float u, float v) const;
   /// Which patch of the surface each vertex belongs to: of one segment, 0.16 m wide in bind pose.
   const std::vector<std::uint16_t>& patches() const { return patches_; }
   /// The segment that a patch follows most.
@@ -38,12 +38,20 @@ class BodyMesh {
  private:
   static constexpr int kDivisions = 4;
   using Transform = Eigen::Matrix<float, 3, 4>;
+  /// A BodySurface in a third of the room: pictures are drawn from a hundred thousand of a
+  /// person's.
+  struct Texel {
+    std::array<std::uint16_t, 3> albedo;  // in 1 / kAlbedoSteps
+    std::array<std::int8_t, 3> bump;      // in 1 / kBumpSteps
+    std::uint8_t gloss;                   // in 1 / kGlossSteps
+  };
+  static Texel pack(const BodySurface& surface);
   void divide_into_patches();
   std::array<Transform, kSegmentCount> moves(const BodyPose& pose) const;
 
   Clothes clothes_;
   BodyPose bind_;
-  std::vector<BodySurface> texels_;
+  std::vector<Texel> texels_;
   std::vector<std::uint16_t> patches_;
   std::vector<std::uint8_t> patch_segments_;
   std::vector<Vec3> rest_;

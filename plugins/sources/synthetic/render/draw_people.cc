@@ -21,6 +21,7 @@ struct ViewRenderer::Cover {
   Rgb irradiance = Rgb::Zero();  // of the last sample that was lit, by all light
   float light = 0, lost = 0;     // luminance of the light, and of what is kept off
   float depth = 0;               // of the first hit
+  float grazing = 0;             // how far from along the normal that one was seen, to the fourth
   float lit_depth = 0;           // of the last sample that was lit
   std::uint16_t body = 0, lit_body = 0;
   std::uint8_t hits = 0, taken = 0;
@@ -43,8 +44,8 @@ BodyPoint body_point(const MovingBody& body, const RayHit& hit, const Vec3& orig
   BodyPoint out;
   const auto& t = body.mesh->triangles()[hit.triangle];
   const float w = 1 - hit.u - hit.v;
-  out.surface = &body.mesh->surface(hit.triangle, hit.u, hit.v);
-  const Vec3& bump = out.surface->bump;
+  out.surface = body.mesh->surface(hit.triangle, hit.u, hit.v);
+  const Vec3& bump = out.surface.bump;
   const float c = body.heading.x(), s = body.heading.y();
   out.normal = (w * body.normals[t[0]] + hit.u * body.normals[t[1]] + hit.v * body.normals[t[2]])
                    .normalized();
@@ -97,19 +98,23 @@ void ViewRenderer::take(const PeopleScene& people, const LightGains& gains, Batc
 
 void ViewRenderer::shade(const PeopleScene& people, const LightGains& gains, const RayQuery& ray,
                          const RayHit& hit, float rank, std::uint32_t random, Cover& cover) const {
-  const BodyPoint at = body_point(people.bodies()[hit.geometry], hit, ray.origin, ray.direction);
-  const auto body = static_cast<std::uint16_t>(hit.geometry);
-  const float slant = 1 - std::clamp(-ray.direction.dot(at.normal), 0.0f, 1.0f);
-  const float grazing = slant * slant * slant * slant;
-  const Rgb albedo = at.surface->albedo + Rgb::Constant(at.surface->gloss * (0.3f + grazing));
+  const MovingBody& body = people.bodies()[hit.geometry];
+  const auto index = static_cast<std::uint16_t>(hit.geometry);
+  const auto albedo = [&](const BodySurface& surface) {
+    return Rgb(surface.albedo + Rgb::Constant(surface.gloss * (0.3f + cover.grazing)));
+  };
   if (cover.hits++ == 0) {
-    cover.body = body;
+    cover.body = index;
     cover.depth = hit.distance;
-  } else if (cover.lit_body == body && std::abs(cover.lit_depth - hit.distance) < kSameDepth) {
+  } else if (cover.lit_body == index && std::abs(cover.lit_depth - hit.distance) < kSameDepth) {
     // texture differs between samples of a pixel, light hardly
-    cover.radiance += albedo.cwiseProduct(cover.irradiance) / kPi;
+    const BodySurface surface = body.mesh->surface(hit.triangle, hit.u, hit.v);
+    cover.radiance += albedo(surface).cwiseProduct(cover.irradiance) / kPi;
     return;
   }
+  const BodyPoint at = body_point(body, hit, ray.origin, ray.direction);
+  const float slant = 1 - std::clamp(-ray.direction.dot(at.normal), 0.0f, 1.0f);
+  cover.grazing = slant * slant * slant * slant;
   std::array<float, kMostLights + 1> weight;
   cover.irradiance = gains.ambient * ambient_.irradiance(at.place, at.normal);
   float total = weight[0] = luminance(cover.irradiance);
@@ -118,9 +123,9 @@ void ViewRenderer::shade(const PeopleScene& people, const LightGains& gains, con
     cover.irradiance += weight[l + 1] * lights_.colour(l);
     total += weight[l + 1];
   }
-  cover.lit_body = body;
+  cover.lit_body = index;
   cover.lit_depth = hit.distance;
-  cover.radiance += albedo.cwiseProduct(cover.irradiance) / kPi;
+  cover.radiance += albedo(at.surface).cwiseProduct(cover.irradiance) / kPi;
   cover.light += total;
   if (!options_.shadows || total <= 0) return;
   float choice = total * rank;

@@ -56,7 +56,7 @@ void ViewRenderer::mirror_people(const PeopleScene& people, const LightGains& ga
       for (std::size_t l = 0; l < view_.lights; ++l) {
         light += gains.direct[l] * lights_.irradiance(l, at.place, at.normal) * lights_.colour(l);
       }
-      change[pixel].head<3>() = view_.mirror[pixel] * at.surface->albedo.cwiseProduct(light) / kPi -
+      change[pixel].head<3>() = view_.mirror[pixel] * at.surface.albedo.cwiseProduct(light) / kPi -
                                 gains.ambient * view_.mirrored[pixel];
     }
   };

@@ -26,7 +26,7 @@ struct ViewRenderer::Canvas {
 /// A point of a body as light sees it.
 struct BodyPoint {
   Vec3 place, normal;
-  const BodySurface* surface = nullptr;
+  BodySurface surface;
 };
 
 BodyPoint body_point(const MovingBody& body, const RayHit& hit, const Vec3& origin,
