@@ -57,7 +57,7 @@ class Crowd {
  public:
   static constexpr double kTickS = 0.02;
   /// Centres of two bodies come no nearer than this, unless they are in one group.
-  static constexpr double kBodyDistance = 0.48;
+  static constexpr double kBodyDistance = 0.46;
 
   explicit Crowd(const Stage& stage) : stage_(&stage) {}
 

@@ -111,7 +111,7 @@ class FourCrossing final : public Scenario {
   void begin(Director& director) override {
     spread(director, 4, ClothingStyle::kDark);
     for (std::size_t who = 0; who < 4; ++who) {
-      director.set_space(who, director.random().uniform(0.22, 0.28));  // they almost touch
+      director.set_space(who, director.random().uniform(0.20, 0.26));  // they almost touch
     }
     if (director.random().chance(0.5)) {
       director.member(director.random().index(4)).style = ClothingStyle::kAny;
@@ -120,11 +120,11 @@ class FourCrossing final : public Scenario {
 
   void idle(Director& director, std::size_t who) override {
     Random& random = director.random();
-    if (random.chance(0.3) && meet_someone(director, who, 1.0, 2.0)) {
+    if (random.chance(0.06) && meet_someone(director, who, 1.0, 2.0)) {
       return;
     }
-    cross(director, who, 0.9, 1.45, 0.25);
-    if (random.chance(0.2)) {
+    cross(director, who, 0.9, 1.45, 0.2);
+    if (random.chance(0.1)) {
       director.stand(who, random.uniform(0.2, 1.0));
     }
   }
