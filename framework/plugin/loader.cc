@@ -163,6 +163,7 @@ void load_plugin(const fs::path& library, Registry& registry) {
 void load_plugins(const std::vector<fs::path>& folders, Registry& registry) {
   for (const fs::path& folder : folders) registry.add_searched(folder);
   for (const fs::path& library : find_plugins(folders)) load_plugin(library, registry);
+  note_left_out(folders, registry);
 }
 
 }  // namespace plaza

@@ -27,6 +27,14 @@ void load_plugins(const std::vector<std::filesystem::path>& folders, Registry& r
 /// its file name. One that is loaded already (through a link, too) is skipped.
 void load_plugin(const std::filesystem::path& library, Registry& registry);
 
+/// A build that lacks what a plugin needs leaves a note in the plugin's place, plaza_NAME.left-out,
+/// with the reason and the remedy (CMake: plaza_leave_out_plugin).
+inline constexpr char kLeftOutExtension[] = ".left-out";
+
+/// Records the plugins that such notes in these folders speak of as refused, but for those that are
+/// there all the same. load_plugins() and survey_plugins() do it.
+void note_left_out(const std::vector<std::filesystem::path>& folders, Registry& registry);
+
 /// Names of what a library that can't be asked presumably provides: plaza_min_cost_flow.so gives
 /// "min-cost-flow".
 std::vector<std::string> presumed_components(const std::filesystem::path& library);

@@ -140,6 +140,7 @@ void survey_plugins(const std::vector<std::filesystem::path>& folders, Registry&
       registry.add_refused({library, probe.report, presumed_components(library)});
     }
   }
+  note_left_out(folders, registry);
 }
 
 }  // namespace plaza

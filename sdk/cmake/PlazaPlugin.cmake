@@ -28,7 +28,23 @@ function(plaza_add_plugin NAME)
     set_target_properties(plaza_${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${PLAZA_PLUGIN_OUTPUT_DIRECTORY}
       INSTALL_RPATH "$ORIGIN/../..")
+    file(REMOVE ${PLAZA_PLUGIN_OUTPUT_DIRECTORY}/plaza_${target}.left-out)  # of an earlier configuration
     set_property(GLOBAL APPEND PROPERTY PLAZA_PLUGINS plaza_${target})
     install(TARGETS plaza_${target} LIBRARY DESTINATION ${PLAZA_PLUGIN_INSTALL_DIRECTORY})
+  endif()
+endfunction()
+
+# plaza_leave_out_plugin(NAME REASON)
+#
+# Says that the plugin library plaza_NAME can't be built, and why, with the remedy: now, and to whoever asks `plaza` for
+# its component.
+function(plaza_leave_out_plugin NAME REASON)
+  string(REPLACE "-" "_" target ${NAME})
+  message(STATUS "plugin '${NAME}' is left out: ${REASON}")
+  if(PLAZA_PLUGIN_OUTPUT_DIRECTORY)
+    set(note ${PLAZA_PLUGIN_OUTPUT_DIRECTORY}/plaza_${target}.left-out)
+    file(REMOVE ${PLAZA_PLUGIN_OUTPUT_DIRECTORY}/plaza_${target}.so)  # of an earlier configuration
+    file(WRITE ${note} "${REASON}\n")
+    install(FILES ${note} DESTINATION ${PLAZA_PLUGIN_INSTALL_DIRECTORY})
   endif()
 endfunction()

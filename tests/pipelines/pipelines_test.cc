@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,26 @@ const Registry& registry() {
   return kRegistry;
 }
 
+/// Those that need no plugin which this build left out; whoever configured it has been told.
+std::vector<fs::path> usable_pipelines() {
+  std::vector<fs::path> files = pipelines();
+  std::erase_if(files, [](const fs::path& file) {
+    try {
+      read_pipeline({file, {}}, registry());
+    } catch (const UserError& error) {
+      const std::string what = error.what();
+      if (what.find("left out of this build") == std::string::npos) return false;
+      std::cout << "not looked at: " << what << '\n';
+      return true;
+    }
+    return false;
+  });
+  return files;
+}
+
 TEST(Pipelines, AreReadWithoutAFault) {
   if (pipelines().empty()) GTEST_SKIP() << "there are no pipelines in " << kFolder;
-  for (const fs::path& file : pipelines()) {
+  for (const fs::path& file : usable_pipelines()) {
     try {
       EXPECT_FALSE(read_pipeline({file, {}}, registry()).nodes.empty()) << file;
     } catch (const UserError& error) {
@@ -73,7 +91,7 @@ TEST(Pipelines, FollowTheSchema) {
          "sys.exit(bool(faults))\n";
   std::string command = "python3 -W ignore " + (work / "validate.py").string() + " " +
                         (work / "schema.json").string();
-  for (const fs::path& file : pipelines()) command += " '" + file.string() + "'";
+  for (const fs::path& file : usable_pipelines()) command += " '" + file.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0) << "see above for what does not follow the schema";
   fs::remove_all(work);
 }

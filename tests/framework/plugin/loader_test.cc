@@ -40,6 +40,29 @@ std::string refusal_of_content(const std::string& content) {
   return refusal_of(folder.path());
 }
 
+TEST(LoaderTest, TellsWhatABuildLeftOutAndTheRemedy) {
+  const TemporaryFolder folder;
+  folder.write("plaza_ray_tracer.left-out", "Rays 3 was not found; install it and build again\n");
+  Registry registry;
+  load_plugins({folder.path()}, registry);
+  ASSERT_EQ(registry.refused().size(), 1u);
+  EXPECT_THAT(registry.explain_missing("ray-tracer", "source"),
+              AllOf(StartsWith("\"ray-tracer\" would come from " + folder.path().string() +
+                               "/plaza_ray_tracer.so"),
+                    EndsWith("it was left out of this build: Rays 3 was not found; install it and "
+                             "build again")));
+}
+
+TEST(LoaderTest, ANoteCountsOnlyWhileThePluginIsMissing) {
+  const TemporaryFolder folder;
+  folder.write("plaza_x.left-out", "no rays\n");
+  folder.write("plaza_x.so", "text");
+  Registry registry;
+  load_plugins({folder.path()}, registry);
+  ASSERT_EQ(registry.refused().size(), 1u);
+  EXPECT_THAT(registry.refused()[0].reason, HasSubstr("is not an ELF shared library"));
+}
+
 TEST(LoaderTest, LoadsWhatAPluginRegisters) {
   Registry registry;
   load_plugins({fixture_folder("valid"), fixture_folder("second")}, registry);
