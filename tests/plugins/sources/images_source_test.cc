@@ -199,6 +199,52 @@ TEST_F(ImagesSourceTest, CutOffImagesAreFound) {
   }
 }
 
+TEST_F(ImagesSourceTest, PeopleFreeFilesOfAllCamerasAreGivenByNumber) {
+  write("a", {0, 7, 9});
+  write("b", {0, 9});
+  options_.people_free = options_.pattern;
+  EXPECT_THAT(faults(), IsEmpty());
+  auto source = make();
+  ASSERT_EQ(source->open().background_count, 3);
+  EXPECT_EQ(number_in(source->background(1)->views[0]), 7);
+  EXPECT_TRUE(source->background(1)->views[1].empty());
+  EXPECT_EQ(number_in(source->background(2)->views[1]), 9);
+}
+
+TEST_F(ImagesSourceTest, CheckFindsPeopleFreeFilesThatAreMissing) {
+  write("a", {0});
+  write("b", {0});
+  std::filesystem::create_directory(folder_ / "empty");
+  options_.people_free["a"] = folder_ / "empty/{frame}.png";
+  options_.people_free["b"] = folder_ / "nowhere/{frame}.png";
+  options_.people_free["e"] = folder_ / "a/{frame}.png";
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("/people_free/e: the scene has no camera 'e'"),
+                                    AllOf(HasSubstr("/people_free/a: camera 'a': no file in"),
+                                          HasSubstr("is empty")),
+                                    AllOf(HasSubstr("/people_free/b: camera 'b': the folder"),
+                                          HasSubstr("cannot be listed"))));
+}
+
+TEST_F(ImagesSourceTest, DamagedPeopleFreeFilesAreFound) {
+  write("a", {0, 1});
+  write("b", {0, 1});
+  options_.people_free = options_.pattern;
+  const std::string whole = read_bytes(file("b", 1));
+  write_bytes(file("b", 1), whole.substr(0, whole.size() / 2));
+  auto source = make();
+  source->open();
+  EXPECT_EQ(number_in(source->background(0)->views[1]), 0);
+  const UserError error = user_error([&] { source->background(1); });
+  EXPECT_THAT(error.what(),
+              AllOf(HasSubstr("people-free image: "), HasSubstr(file("b", 1).string()),
+                    HasSubstr("\"damaged\": \"missing\"")));
+  EXPECT_EQ(error.context().camera, "b");
+  options_.damaged = ImagesSource::Damaged::kMissing;
+  auto lenient = make();
+  lenient->open();
+  EXPECT_TRUE(lenient->background(1)->views[1].empty());
+}
+
 TEST_F(ImagesSourceTest, AlteredBytesInPngAreFound) {
   write("b", {0});
   cv::Mat busy = numbered_image(1);
