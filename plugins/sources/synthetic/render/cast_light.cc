@@ -62,7 +62,8 @@ void ViewRenderer::aim_at_light(std::uint32_t mask, int x, int y, std::size_t pi
   // neighbours choose different lights: the scouts of a square one of each quarter of the light,
   // and so do the seconds
   const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ shade.key);
-  float choice = 0.25f * (static_cast<float>(rank_in_square(x, y) / 4) + to_unit(random)) * total;
+  const int quarter = rank_in_square(x, y) / 4;
+  float choice = 0.25f * (static_cast<float>(quarter) + to_unit(random)) * total;
   std::size_t which = 0;
   while (which < view_.lights && (choice >= weight[which] || weight[which] <= 0)) {
     choice -= weight[which];
