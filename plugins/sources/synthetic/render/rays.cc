@@ -64,6 +64,18 @@ void set_triangles(RTCGeometry geometry,
   std::memcpy(buffer, triangles.data(), triangles.size() * sizeof(triangles[0]));
 }
 
+/// Calls `use` with the index of a bunch's first query, its queries, and a context that tells
+/// Embree of their coherence.
+template <class Use>
+void for_each_bunch(std::span<const RayQuery> queries, const Use& use) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < queries.size(); first += kBunch) {
+    use(first, queries.subspan(first, std::min(kBunch, queries.size() - first)), context);
+  }
+}
+
 }  // namespace
 
 // not "threads=1": Embree would hold all of oneTBB, and so the whole run, to one thread
@@ -104,35 +116,27 @@ bool RayScene::blocked(const Vec3& origin, const Vec3& direction, float reach, f
 void RayScene::trace(std::span<const RayQuery> queries,
                      std::span<std::optional<RayHit>> hits) const {
   std::array<RTCRayHit, kBunch> rays;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (std::size_t first = 0; first < queries.size(); first += kBunch) {
-    const std::size_t count = std::min(kBunch, queries.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const RayQuery& q = queries[first + i];
-      fill(rays[i].ray, q.origin, q.direction, q.reach, q.time);
+  for_each_bunch(queries, [&](std::size_t first, auto bunch, RTCIntersectContext& context) {
+    for (std::size_t i = 0; i < bunch.size(); ++i) {
+      fill(rays[i].ray, bunch[i].origin, bunch[i].direction, bunch[i].reach, bunch[i].time);
       miss(rays[i].hit);
     }
-    rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(count), sizeof(RTCRayHit));
-    for (std::size_t i = 0; i < count; ++i) hits[first + i] = hit_of(rays[i]);
-  }
+    rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(bunch.size()),
+                   sizeof(RTCRayHit));
+    for (std::size_t i = 0; i < bunch.size(); ++i) hits[first + i] = hit_of(rays[i]);
+  });
 }
 
 void RayScene::blocked(std::span<const RayQuery> queries, std::span<std::uint8_t> blocked) const {
   std::array<RTCRay, kBunch> rays;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (std::size_t first = 0; first < queries.size(); first += kBunch) {
-    const std::size_t count = std::min(kBunch, queries.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const RayQuery& q = queries[first + i];
-      fill(rays[i], q.origin, q.direction, q.reach - kNear, q.time);
+  for_each_bunch(queries, [&](std::size_t first, auto bunch, RTCIntersectContext& context) {
+    for (std::size_t i = 0; i < bunch.size(); ++i) {
+      fill(rays[i], bunch[i].origin, bunch[i].direction, bunch[i].reach - kNear, bunch[i].time);
     }
-    rtcOccluded1M(scene_, &context, rays.data(), static_cast<unsigned>(count), sizeof(RTCRay));
-    for (std::size_t i = 0; i < count; ++i) blocked[first + i] = rays[i].tfar < 0 ? 1 : 0;
-  }
+    rtcOccluded1M(scene_, &context, rays.data(), static_cast<unsigned>(bunch.size()),
+                  sizeof(RTCRay));
+    for (std::size_t i = 0; i < bunch.size(); ++i) blocked[first + i] = rays[i].tfar < 0 ? 1 : 0;
+  });
 }
 
 StageScene::StageScene(std::shared_ptr<const RayDevice> device,
