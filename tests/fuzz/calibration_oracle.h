@@ -2,22 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
 #include <stdexcept>
 #include <string_view>
 
 #include "framework/scene/calibration.h"
 #include "framework/scene/calibration_check.h"
 #include "plaza/core/error.h"
+#include "tests/fuzz/require.h"
 
 namespace plaza::fuzz {
-
-inline void require(bool condition, const char* what) {
-  if (condition) return;
-  std::cerr << what << '\n';
-  std::abort();
-}
 
 inline void use_camera(const Camera& camera) {
   lens_faults(camera);

@@ -5,22 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <iostream>
 #include <string>
 #include <string_view>
 
 #include "framework/config/json_document.h"
 #include "framework/config/pipeline.h"
 #include "plaza/core/error.h"
+#include "tests/fuzz/require.h"
 #include "tests/support/test_components.h"
 
 namespace {
 
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::cerr << what << '\n';
-  std::abort();
-}
+using plaza::fuzz::require;
 
 void check(const plaza::UserError& error) {
   for (const plaza::Diagnostic& diagnostic : error.diagnostics()) {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <iostream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,18 +13,15 @@
 #include "framework/study/expand.h"
 #include "framework/study/study.h"
 #include "plaza/core/error.h"
+#include "tests/fuzz/require.h"
 #include "tests/support/test_components.h"
 
 namespace {
 
+using plaza::fuzz::require;
+
 constexpr std::size_t kReadRuns = 4;
 constexpr std::size_t kExpandedRuns = 2000;
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::cerr << what << '\n';
-  std::abort();
-}
 
 void check(const plaza::UserError& error) {
   for (const plaza::Diagnostic& diagnostic : error.diagnostics()) {
