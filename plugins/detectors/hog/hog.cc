@@ -1,12 +1,9 @@
 #include "plugins/detectors/hog/hog.h"
 
 #include <cmath>
-#include <iterator>
 #include <opencv2/imgproc.hpp>
-#include <string>
 
-#include "plaza/core/parallel.h"
-#include "plaza/data/frames.h"
+#include "plugins/detectors/common/box_views.h"
 
 namespace plaza {
 
@@ -115,30 +112,9 @@ std::vector<ImageDetection> HogDetector::detect_boxes(const cv::Mat& image,
 }
 
 Observations HogDetector::do_detect(const NodeIo& io) const {
-  const FrameSet& frames = io.in<FrameSet>(0);
-  if (frames.views.size() != scene_->cameras.size()) {
-    throw InternalError("images of " + std::to_string(frames.views.size()) +
-                        " views in a scene of " + std::to_string(scene_->cameras.size()));
-  }
-  std::vector<std::vector<Observation>> seen(frames.views.size());
-  parallel_for(frames.views.size(), [&](std::size_t camera) {
-    const cv::Mat& image = frames.views[camera];
-    if (image.empty()) return;
-    const Camera& c = scene_->cameras[camera];
-    if (image.cols != c.width() || image.rows != c.height() || image.type() != CV_8UC3) {
-      UserError error("image is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
-                      ", the calibration of camera '" + c.name() + "' is for " +
-                      std::to_string(c.width()) + "x" + std::to_string(c.height()) + " BGR");
-      error.add_context({.component = {}, .frame = {}, .camera = c.name()});
-      throw error;
-    }
-    seen[camera] = ground_.observe(camera, detect_boxes(image, camera));
-  });
-  Observations all;
-  for (std::vector<Observation>& view : seen) {
-    std::move(view.begin(), view.end(), std::back_inserter(all.items));
-  }
-  return all;
+  return observe_views(
+      io.in<FrameSet>(0), *scene_, ground_,
+      [this](std::size_t camera, const cv::Mat& image) { return detect_boxes(image, camera); });
 }
 
 }  // namespace plaza

@@ -7,6 +7,7 @@
 #include <opencv2/videoio.hpp>
 #include <utility>
 
+#include "tests/support/blob_network.h"
 #include "tests/support/overlap_modality.h"
 
 namespace plaza::contract {
@@ -96,6 +97,24 @@ Trial follower(Trial t) {
   return t;
 }
 
+/// A network that takes whatever is not grey for a person, in boxes of many sizes about each cell.
+std::string network_file(const fs::path& folder) {
+  test::BlobNetwork network;
+  network.width = network.height = 128;
+  network.classes = {{1, -1, 0}};
+  network.bias = 0;
+  const int columns = network.width / network.cell;
+  for (int cell = 0; cell < columns * columns; ++cell) {
+    const double x = (cell % columns + 0.5) * network.cell;
+    const double y = (cell / columns + 0.5) * network.cell;
+    const double height = 10.0 + 5.0 * (cell % 7);
+    network.boxes[cell] = {x - 0.2 * height, y - 0.5 * height, x + 0.2 * height, y + 0.5 * height};
+  }
+  const fs::path file = folder / "network.onnx";
+  std::ofstream(file, std::ios::binary) << network.bytes();
+  return file.string();
+}
+
 /// What detectors of single views give: the boxes of an observation, one observation each.
 std::shared_ptr<const World> world_of_single_views() {
   auto world = std::make_shared<World>();
@@ -170,6 +189,16 @@ const std::map<std::string, Maker>& table() {
          Trial t;
          t.world = std::make_shared<World>(2, 8);  // a tenth of a second per frame
          return std::vector<Trial>{t};
+       }},
+      {"onnx",
+       [](const fs::path& files) {
+         const std::string model = network_file(files);
+         return std::vector<Trial>{trial("letterbox", {{"model", model}}),
+                                   trial("one copy, stretched", {{"model", model},
+                                                                 {"head", "yolov8"},
+                                                                 {"input_size", {128, 128}},
+                                                                 {"fit", "stretch"},
+                                                                 {"copies", 1}})};
        }},
       {"ground-fusion",
        [](const fs::path&) {
