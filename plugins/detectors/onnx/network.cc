@@ -44,6 +44,44 @@ std::string words_of(const cv::Exception& error) {
   return "\"" + words.substr(first, last - first + 1) + "\"";
 }
 
+/// Whether a layer of OpenCV's that multiplies by constants does so with this many: one for each
+/// index of some dimensions that follow each other, the first of which is dimension 1.
+bool covers_leading_dimensions(const TensorShape& shape, std::size_t factors) {
+  std::size_t product = 1;
+  for (std::size_t i = 1; i < shape.size(); ++i) {
+    product *= static_cast<std::size_t>(shape[i]);
+    if (product == factors) return true;
+  }
+  return false;
+}
+
+/// Repeats factors that belong to the last of three dimensions, for each index of the one before.
+/// ONNX does so by itself, OpenCV 4.6 can't, and the last step of YOLOv8's head, [1, 4, boxes]
+/// times [1, boxes], needs it. What OpenCV can do is left alone; and a constant that has as many
+/// elements as the last of three dimensions, but not as the one before, belongs to the last.
+void spread_factors(cv::dnn::Net& net, const TensorShape& input) {
+  std::vector<int> layers;
+  std::vector<std::vector<TensorShape>> inputs, outputs;
+  try {
+    net.getLayersShapes(input, layers, inputs, outputs);
+  } catch (const cv::Exception&) {
+    return;  // it can't be run on such an input, either, and outputs() says why
+  }
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const cv::Ptr<cv::dnn::Layer> layer = net.getLayer(layers[i]);
+    if (layer->type != "Scale" || layer->blobs.empty() || inputs[i].size() != 1) continue;
+    const TensorShape& shape = inputs[i][0];
+    if (shape.size() != 3) continue;
+    for (std::size_t b = 0; b < layer->blobs.size(); ++b) {
+      const std::size_t factors = layer->blobs[b].total();
+      if (covers_leading_dimensions(shape, factors)) continue;
+      if (factors != static_cast<std::size_t>(shape[2])) continue;
+      net.setParam(layers[i], static_cast<int>(b),
+                   cv::repeat(layer->blobs[b].reshape(1, 1), 1, shape[1]));
+    }
+  }
+}
+
 UserError fault(const std::string& pointer, const std::string& message) {
   Diagnostic diagnostic;
   diagnostic.pointer = pointer;
@@ -93,8 +131,11 @@ class Network::Borrowed {
   cv::dnn::Net net_;
 };
 
-Network::Network(std::filesystem::path file, std::string bytes, int most_copies)
-    : file_(std::move(file)), bytes_(std::move(bytes)), most_copies_(most_copies) {
+Network::Network(std::filesystem::path file, std::string bytes, TensorShape input, int most_copies)
+    : file_(std::move(file)),
+      bytes_(std::move(bytes)),
+      input_(std::move(input)),
+      most_copies_(most_copies) {
   const QuietOpenCv quiet;
   const Borrowed first(*this);
 }
@@ -108,6 +149,7 @@ cv::dnn::Net Network::read() const {
     // goes
     net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
+    spread_factors(net, input_);
     return net;
   } catch (const cv::Exception& error) {
     throw fault("/model",
@@ -118,18 +160,18 @@ cv::dnn::Net Network::read() const {
   }
 }
 
-std::vector<Network::Output> Network::outputs_for(const TensorShape& input) const {
+std::vector<Network::Output> Network::outputs() const {
   const QuietOpenCv quiet;
   Borrowed borrowed(*this);
   const std::vector<cv::String> names = borrowed.net().getUnconnectedOutLayersNames();
   std::vector<cv::Mat> tensors;
   try {
-    borrowed.net().setInput(cv::Mat(input, CV_32F, cv::Scalar(0)));
+    borrowed.net().setInput(cv::Mat(input_, CV_32F, cv::Scalar(0)));
     borrowed.net().forward(tensors, names);
   } catch (const cv::Exception& error) {
     throw fault("/input_size",
                 "OpenCV " CV_VERSION " can't run " + file_.string() + " on an input of " +
-                    to_string(input) + ", it says " + words_of(error) +
+                    to_string(input_) + ", it says " + words_of(error) +
                     "; give the size that the model was exported for, or export it again, "
                     "simplified and with operator set 12 (docs/onnx.md)");
   }

@@ -21,18 +21,19 @@ namespace plaza {
 /// difference.
 class Network {
  public:
-  /// Reads a model. `most_copies` nets at once, 0: no limit; threads beyond it wait. Throws
-  /// UserError at "/model" when OpenCV can't read it, with OpenCV's own words.
-  Network(std::filesystem::path file, std::string bytes, int most_copies);
+  /// Reads a model that will see inputs of this shape. `most_copies` nets at once, 0: no limit;
+  /// threads beyond it wait. Throws UserError at "/model" when OpenCV can't read it, with OpenCV's
+  /// own words.
+  Network(std::filesystem::path file, std::string bytes, TensorShape input, int most_copies);
   ~Network();
 
   struct Output {
     std::string name;
     TensorShape shape;
   };
-  /// All outputs, as an input of this shape gives them: the network is run once. Throws UserError
-  /// at "/input_size" when it can't be run on such an input, with OpenCV's own words.
-  std::vector<Output> outputs_for(const TensorShape& input) const;
+  /// All outputs: the network is run once. Throws UserError at "/input_size" when it can't be run
+  /// on such an input, with OpenCV's own words.
+  std::vector<Output> outputs() const;
 
   /// One output for an input of floats, as floats. The output's memory is its own.
   cv::Mat run(const cv::Mat& input, const std::string& output) const;
@@ -43,6 +44,7 @@ class Network {
 
   std::filesystem::path file_;
   std::string bytes_;
+  TensorShape input_;
   int most_copies_;
   mutable std::mutex mutex_;
   mutable std::condition_variable given_back_;

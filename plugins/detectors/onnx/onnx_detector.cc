@@ -118,7 +118,9 @@ OnnxDetector::Loaded OnnxDetector::load() const {
   std::string bytes = read_model_file(options_.model);
   Loaded loaded;
   loaded.input = input_size(bytes);
-  loaded.network = std::make_unique<Network>(options_.model, std::move(bytes), options_.copies);
+  loaded.network = std::make_unique<Network>(
+      options_.model, std::move(bytes), TensorShape{1, 3, loaded.input.height, loaded.input.width},
+      options_.copies);
   choose_output(loaded);
   return loaded;
 }
@@ -165,7 +167,7 @@ int OnnxDetector::person_class(Head head) const {
 }
 
 void OnnxDetector::choose_output(Loaded& loaded) const {
-  const auto outputs = loaded.network->outputs_for({1, 3, loaded.input.height, loaded.input.width});
+  const auto outputs = loaded.network->outputs();
   const std::string model = options_.model.string();
   std::vector<std::pair<const Network::Output*, Head>> fitting;
   std::string faults;

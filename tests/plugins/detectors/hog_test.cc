@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <opencv2/imgproc.hpp>
-
 #include "plaza/core/error.h"
 #include "plaza/data/frames.h"
+#include "tests/plugins/detectors/drawn_people.h"
 #include "tests/plugins/detectors/simulated_scene.h"
 
 namespace plaza {
@@ -14,6 +13,8 @@ namespace {
 
 using testing::context_of;
 using testing::detect;
+using testing::draw_person;
+using testing::empty_street;
 using testing::looking_camera;
 using testing::person_box;
 using testing::round_scene;
@@ -23,31 +24,6 @@ std::shared_ptr<Scene> street() {
   scene->cameras[0] = looking_camera("street", {0, -11, 3.5}, {0, 0, 0.9});
   scene->area = {.min_m = {-4, -3}, .max_m = {4, 4}};
   return scene;
-}
-
-/// Head, trunk, arms and slightly parted legs, dark on a bright textured ground: what the SVM knows
-/// people by.
-void draw_person(cv::Mat& image, const Box& box) {
-  const auto at = [&](double x, double y) {
-    return cv::Point(static_cast<int>(std::lround(box.left + x * box.width)),
-                     static_cast<int>(std::lround(box.top + y * box.height)));
-  };
-  const auto px = [&](double share) { return std::max(1, static_cast<int>(share * box.height)); };
-  const cv::Scalar dark(40, 35, 30);
-  cv::circle(image, at(0.5, 0.075), px(0.075), dark, cv::FILLED, cv::LINE_AA);
-  cv::ellipse(image, at(0.5, 0.33), {px(0.12), px(0.2)}, 0, 0, 360, dark, cv::FILLED, cv::LINE_AA);
-  cv::line(image, at(0.30, 0.22), at(0.24, 0.5), dark, px(0.055), cv::LINE_AA);
-  cv::line(image, at(0.70, 0.22), at(0.76, 0.5), dark, px(0.055), cv::LINE_AA);
-  cv::line(image, at(0.44, 0.5), at(0.36, 0.97), dark, px(0.085), cv::LINE_AA);
-  cv::line(image, at(0.56, 0.5), at(0.64, 0.97), dark, px(0.085), cv::LINE_AA);
-}
-
-cv::Mat empty_street() {
-  cv::Mat image(480, 640, CV_8UC3, cv::Scalar(170, 175, 180));
-  cv::Mat noise(image.size(), CV_8UC3);
-  cv::RNG random(4);
-  random.fill(noise, cv::RNG::UNIFORM, 0, 12);
-  return image + noise;
 }
 
 std::shared_ptr<FrameSet> frame_of(const cv::Mat& image) {
