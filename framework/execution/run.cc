@@ -12,7 +12,6 @@
 
 #include "framework/cache/bytes.h"
 #include "framework/cache/node_cache.h"
-#include "framework/execution/disk_reserve.h"
 #include "framework/execution/evaluate.h"
 #include "framework/execution/frame_loop.h"
 #include "framework/execution/frame_reader.h"
@@ -21,9 +20,10 @@
 #include "framework/execution/missing_views.h"
 #include "framework/execution/plan.h"
 #include "framework/execution/progress.h"
-#include "framework/execution/recorder.h"
 #include "framework/execution/render.h"
 #include "framework/execution/reuse.h"
+#include "framework/execution/run_faults.h"
+#include "framework/execution/run_output.h"
 #include "framework/execution/stop.h"
 #include "framework/results/branches.h"
 #include "framework/results/summary.h"
@@ -31,15 +31,11 @@
 #include "plaza/data/frames.h"
 #include "plaza/data/ground_truth.h"
 #include "plaza/data/track.h"
-#include "plaza/io/output_file.h"
 
 namespace plaza {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-// enough for the tracks of some hours in a few views
-constexpr std::uintmax_t kReservedBytes = 16 << 20;
 
 /// One run from its check to its last file.
 class Run {
@@ -54,46 +50,26 @@ class Run {
         node_cache_(options.cache_folder,
                     options.cache_limit_bytes.value_or(default_cache_limit(options.cache_folder)),
                     feature_loaders(pipeline)),
-        progress_(options.progress) {}
+        progress_(options.progress),
+        output_(pipeline, *scene_, options) {}
 
   RunReport execute() {
     check();
-    start_ = SteadyClock::now();
     open_output();
-    if (!stopped_ && attempt([this] { learn(); }) && !stopped_) {
+    if (!stopped_ && faults_.attempt([this] { learn(); }) && !stopped_) {
       stream();
       flush();
       if (!ended()) render();
-      if (!fault_) attempt([this] { evaluate(); });
+      if (!faults_.any()) faults_.attempt([this] { evaluate(); });
     }
     finish();
-    write();
-    if (fault_) std::rethrow_exception(fault_);
+    output_.write({.frame = end_frame_, .stopped = stopped_}, missing_views_, *reuse_, faults_);
+    faults_.rethrow();
     return std::move(report_);
   }
 
  private:
-  bool ended() const { return fault_ != nullptr || stopped_; }
-
-  /// Keeps the first fault as the run's; what fails after it stands behind it in the summary.
-  void keep_fault(const std::exception_ptr& fault) {
-    if (fault_) {
-      further_faults_ += "; also failed: " + describe(fault);
-    } else {
-      fault_ = fault;
-    }
-  }
-
-  template <class Step>
-  bool attempt(const Step& step) {
-    try {
-      step();
-      return true;
-    } catch (...) {
-      keep_fault(std::current_exception());
-      return false;
-    }
-  }
+  bool ended() const { return faults_.any() || stopped_; }
 
   void check() {
     if (options_.first_frame < 0 ||
@@ -138,24 +114,7 @@ class Run {
   }
 
   void open_output() {
-    std::error_code error;
-    std::filesystem::create_directories(options_.output_folder, error);
-    if (error) {
-      throw UserError("cannot create the output folder " + options_.output_folder.string() + ": " +
-                      error.message() + "; choose another one with --out");
-    }
-    // From here on the folder says that its run is not complete, whatever ends the process.
-    timings_.clear();
-    for (const PlannedNode& node : plan_.nodes) {
-      timings_.push_back({node.name, node.resolved->entry->declaration.name, 0, 0});
-    }
-    report_.stop_reason = "the run was ended from outside, or goes on";
-    write_summary(options_.output_folder, summary());
-    report_.stop_reason.clear();
-    write_file(options_.output_folder / "resolved.json", pipeline_.resolved_json().dump(2) + "\n");
-    reserve_.hold(options_.output_folder, kReservedBytes);
-    recorder_ = std::make_unique<Recorder>(branches_, plan_, *scene_, options_.output_folder,
-                                           options_.first_frame);
+    output_.open(plan_, branches_);
     draws_.assign(plan_.nodes.size(), false);
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) add_render_task(i);
   }
@@ -167,7 +126,7 @@ class Run {
     RenderTask task{.node = index, .renderer = renderer, .tracks = {}, .ground_truth = {}};
     const ComponentDeclaration& declaration = node.resolved->entry->declaration;
     if (const auto input = input_of_type(declaration, Tracks::kPort)) {
-      task.tracks = recorder_->tracks_in(node.inputs.at(*input));
+      task.tracks = output_.recorder().tracks_in(node.inputs.at(*input));
     }
     if (const auto input = input_of_type(declaration, GroundTruth::kPort)) {
       task.ground_truth_slot = node.inputs.at(*input);
@@ -192,7 +151,7 @@ class Run {
       reader_.replay_clock(*reuse_->replay_end(),
                            [this](FrameState& state) { reuse_->replay_node(plan_.clock, state); });
     }
-    if (!attempt([this] { reader_.seek(options_.first_frame); })) return;
+    if (!faults_.attempt([this] { reader_.seek(options_.first_frame); })) return;
     FrameLoop loop;
     loop.read = [this](FrameState& state) {
       if (options_.end_frame && reader_.next() >= *options_.end_frame) return false;
@@ -218,7 +177,7 @@ class Run {
     streamed_ = true;
     stopped_ = end.stopped;
     failed_node_ = end.failed_node;
-    if (end.fault) keep_fault(end.fault);
+    if (end.fault) faults_.keep(end.fault);
   }
 
   void process(const ExecutionPlan::Group& group, FrameState& state) const {
@@ -239,7 +198,7 @@ class Run {
   }
 
   void done(FrameState& state) {
-    recorder_->add_frame(state);
+    output_.recorder().add_frame(state);
     for (std::size_t i = 0; i < timings_.size(); ++i) {
       timings_[i].seconds += 1e-9 * static_cast<double>(state.node_ns[i]);
       if (plan_.nodes[i].works && !draws_[i])
@@ -267,12 +226,12 @@ class Run {
     FrameState state;
     state.reset(end_frame_, scene_->time_of_frame(end_frame_), plan_.slot_count,
                 plan_.nodes.size());
-    if (!attempt([&] { reuse_->replay_flush(state); })) return;
+    if (!faults_.attempt([&] { reuse_->replay_flush(state); })) return;
     for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
       const PlannedNode& node = plan_.nodes[i];
       if (node.source != nullptr || i == failed_node_ || !node.works) continue;
       const auto start = SteadyClock::now();
-      const bool good = attempt([&] {
+      const bool good = faults_.attempt([&] {
         guarded(node.name, std::nullopt, [&] {
           NodeIo io(state.frame, state.time_ns, state.slots.data(), node.inputs, node.outputs);
           node.node->flush(io);
@@ -281,7 +240,7 @@ class Run {
       if (!good && !failed_node_) failed_node_ = i;
       timings_[i].seconds += std::chrono::duration<double>(SteadyClock::now() - start).count();
     }
-    attempt([&] { recorder_->add_flushed(state); });
+    faults_.attempt([&] { output_.recorder().add_flushed(state); });
     if (!ended()) reuse_->recordings().add_flush(state);
   }
 
@@ -296,7 +255,7 @@ class Run {
     }
     stopped_ = end.stopped;
     failed_node_ = end.failed_node;
-    if (end.fault) keep_fault(end.fault);
+    if (end.fault) faults_.keep(end.fault);
   }
 
   void evaluate() {
@@ -311,7 +270,7 @@ class Run {
   /// ended.
   void finish() {
     const auto add = [this](const std::string& name, const auto& close) {
-      attempt([&] {
+      faults_.attempt([&] {
         const std::vector<Artifact> artifacts = guarded(name, std::nullopt, close);
         report_.artifacts.insert(report_.artifacts.end(), artifacts.begin(), artifacts.end());
       });
@@ -327,68 +286,6 @@ class Run {
     }
   }
 
-  void write() {
-    reserve_.release();
-    attempt([this] {
-      const std::vector<Artifact> files = recorder_->write(end_frame_);
-      report_.artifacts.insert(report_.artifacts.end(), files.begin(), files.end());
-    });
-    add_notes();
-    report_.node_seconds = reuse_->node_seconds(timings_);
-    report_.complete = !ended();
-    report_.seconds = std::chrono::duration<double>(SteadyClock::now() - start_).count();
-    if (fault_) {
-      report_.stop_reason = describe(fault_) + further_faults_;
-    } else if (stopped_) {
-      report_.stop_reason = "interrupted after " + std::to_string(report_.frames) + " frames";
-    }
-    attempt([this] {
-      write_summary(options_.output_folder, summary());
-      report_.artifacts.push_back({options_.output_folder / "summary.json", "figures of the run"});
-    });
-  }
-
-  /// What whoever reads the results should know; of what was read from the cache, what was known
-  /// when it was computed.
-  void add_notes() {
-    std::vector<std::string> learning = std::exchange(report_.notes, {});
-    if (reuse_->replay_end()) {
-      report_.notes = reuse_->kept_notes();
-    } else {
-      for (const std::string& note : missing_views_.notes()) {
-        report_.notes.push_back("node '" + plan_.nodes[plan_.clock].name + "', " + note);
-      }
-      for (const PlannedNode& node : plan_.nodes) add_notes(node);
-    }
-    if (!ended()) reuse_->recordings().commit(report_.frames, timings_, report_.notes);
-    const std::vector<std::string>& troubles = reuse_->recordings().troubles();
-    learning.insert(learning.end(), troubles.begin(), troubles.end());
-    report_.notes.insert(report_.notes.begin(), learning.begin(), learning.end());
-  }
-
-  /// What a source met that was no error.
-  void add_notes(const PlannedNode& node) {
-    if (node.source == nullptr || !node.works) return;
-    attempt([&] {
-      const auto notes = guarded(node.name, std::nullopt, [&] { return node.source->notes(); });
-      for (const std::string& note : notes) {
-        report_.notes.push_back("node '" + node.name + "', " + note);
-      }
-    });
-  }
-
-  Summary summary() const {
-    return {.pipeline = pipeline_.name,
-            .complete = report_.complete,
-            .reason = report_.stop_reason,
-            .frames = report_.frames,
-            .cameras = scene_->cameras.size(),
-            .seconds = report_.seconds,
-            .nodes = timings_,
-            .evaluation = report_.evaluation,
-            .branches = report_.branches};
-  }
-
   const ResolvedPipeline& pipeline_;
   const std::shared_ptr<const Scene> scene_;
   const RunOptions& options_;
@@ -396,7 +293,6 @@ class Run {
   const ModelCache cache_;
   const NodeCache node_cache_;
   std::unique_ptr<Reuse> reuse_;
-  DiskReserve reserve_;
   Progress progress_;
 
   Assembly assembly_;
@@ -405,20 +301,18 @@ class Run {
   std::vector<Branch> branches_;
   std::vector<LearningTask> tasks_;
   std::vector<LearningTask> missing_;
-  std::unique_ptr<Recorder> recorder_;
+  RunOutput output_;
+  RunReport& report_ = output_.report();
+  std::vector<NodeTiming>& timings_ = output_.timings();
   MissingViews missing_views_{*scene_};
   std::vector<RenderTask> renderers_;
   std::vector<bool> draws_;  ///< by node: is it a renderer
 
-  SteadyClock::time_point start_;
-  std::vector<NodeTiming> timings_;
   std::int64_t end_frame_ = 0;
   bool streamed_ = false;
   bool stopped_ = false;
-  std::exception_ptr fault_;
-  std::string further_faults_;
+  RunFaults faults_;
   std::optional<std::size_t> failed_node_;
-  RunReport report_;
 };
 
 /// A stop that was asked for is over with the run it was meant for.
