@@ -16,6 +16,9 @@ inline float smoothstep(float from, float to, float x) {
   return t * t * (3 - 2 * t);
 }
 
+/// The same place on a body's left half, y >= 0.
+inline Vec3 mirrored(const Vec3& p) { return {p.x(), std::abs(p.y()), p.z()}; }
+
 /// Union of two signed distances whose seam is filled over about `k` metres (I. Quilez's
 /// polynomial smooth minimum).
 inline float smooth_union(float a, float b, float k) {

@@ -25,25 +25,36 @@ Place locate(double seconds, double start_s, std::size_t count) {
           at - static_cast<double>(from)};
 }
 
+/// The cubic through the middle two samples whose slopes there are those between their neighbours
+/// (E. Catmull and R. Rom, "A class of local interpolating splines", 1974):
+/// start + share / 2 * (linear + square * share + cube * share^2).
 template <typename T>
-T interpolate(const std::vector<T>& samples, const Place& place) {
+struct Cubic {
+  T start, linear, square, cube;
+};
+
+template <typename T>
+Cubic<T> cubic_at(const std::vector<T>& samples, const Place& place) {
   const T& a = samples[place.before];
   const T& b = samples[place.from];
   const T& c = samples[place.to];
   const T& d = samples[place.after];
-  const double s = place.share;
-  return b + 0.5 * s * (c - a + s * (2 * a - 5 * b + 4 * c - d + s * (3 * (b - c) + d - a)));
+  return {b, c - a, 2 * a - 5 * b + 4 * c - d, 3 * (b - c) + d - a};
 }
 
 template <typename T>
-T slope(const std::vector<T>& samples, const Place& place) {
-  const T& a = samples[place.before];
-  const T& b = samples[place.from];
-  const T& c = samples[place.to];
-  const T& d = samples[place.after];
+T interpolate(const std::vector<T>& samples, const Place& place) {
+  const Cubic<T> p = cubic_at(samples, place);
   const double s = place.share;
-  return GroundMotion::kRateHz * 0.5 *
-         (c - a + s * (2 * (2 * a - 5 * b + 4 * c - d) + 3 * s * (3 * (b - c) + d - a)));
+  return p.start + 0.5 * s * (p.linear + s * (p.square + s * p.cube));
+}
+
+/// Per second.
+template <typename T>
+T slope(const std::vector<T>& samples, const Place& place) {
+  const Cubic<T> p = cubic_at(samples, place);
+  const double s = place.share;
+  return GroundMotion::kRateHz * 0.5 * (p.linear + s * (2 * p.square + 3 * s * p.cube));
 }
 
 template <typename T>

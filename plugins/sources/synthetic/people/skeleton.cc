@@ -21,44 +21,39 @@ Isometry3d placed(const Vector3d& origin, const Quaterniond& rotation) {
 
 BodyPose place_segments(const Proportions& p, const JointRotations& joints) {
   BodyPose pose;
+  // puts a segment at `joint` and moves that to where the next one begins
+  const auto place = [&pose](Segment segment, Vector3d& joint, const Quaterniond& rotation,
+                             double length_m) {
+    pose[segment] = placed(joint, rotation);
+    joint += rotation * Vector3d(0, 0, length_m);
+  };
   const Quaterniond pelvis = joints.pelvis.normalized();
   const Quaterniond abdomen = (pelvis * joints.lumbar).normalized();
   const Quaterniond chest = (abdomen * joints.thoracic).normalized();
   const Quaterniond neck = (chest * joints.neck).normalized();
   const Quaterniond head = (neck * joints.head).normalized();
   Vector3d joint = joints.pelvis_m;
-  pose[Segment::kPelvis] = placed(joint, pelvis);
-  joint += pelvis * Vector3d(0, 0, p.pelvis_m);
-  pose[Segment::kAbdomen] = placed(joint, abdomen);
-  joint += abdomen * Vector3d(0, 0, p.abdomen_m);
-  pose[Segment::kChest] = placed(joint, chest);
+  place(Segment::kPelvis, joint, pelvis, p.pelvis_m);
+  place(Segment::kAbdomen, joint, abdomen, p.abdomen_m);
   const Vector3d thoracic = joint;
-  joint += chest * Vector3d(0, 0, p.chest_m);
-  pose[Segment::kNeck] = placed(joint, neck);
-  joint += neck * Vector3d(0, 0, p.neck_m);
+  place(Segment::kChest, joint, chest, p.chest_m);
+  place(Segment::kNeck, joint, neck, p.neck_m);
   pose[Segment::kHead] = placed(joint, head);
 
   for (std::size_t side = 0; side < 2; ++side) {
     const double left = side == 0 ? 1.0 : -1.0;
+    const SideSegments& segments = kSides[side];
     const auto& arm = joints.arms[side];
-    Vector3d at = thoracic + chest * shoulder_offset(p, left);
-    const Quaterniond upper = arm.upper.normalized();
-    const Quaterniond fore = arm.fore.normalized();
-    pose[side == 0 ? Segment::kLeftUpperArm : Segment::kRightUpperArm] = placed(at, upper);
-    at += upper * Vector3d(0, 0, -p.upper_arm_m);
-    pose[side == 0 ? Segment::kLeftForearm : Segment::kRightForearm] = placed(at, fore);
-    at += fore * Vector3d(0, 0, -p.forearm_m);
-    pose[side == 0 ? Segment::kLeftHand : Segment::kRightHand] = placed(at, arm.hand.normalized());
+    joint = thoracic + chest * shoulder_offset(p, left);
+    place(segments.upper_arm, joint, arm.upper.normalized(), -p.upper_arm_m);
+    place(segments.forearm, joint, arm.fore.normalized(), -p.forearm_m);
+    pose[segments.hand] = placed(joint, arm.hand.normalized());
 
     const auto& leg = joints.legs[side];
-    at = joints.pelvis_m + pelvis * Vector3d(0, left * p.hip_width_m / 2, 0);
-    const Quaterniond thigh = leg.thigh.normalized();
-    const Quaterniond shin = leg.shin.normalized();
-    pose[side == 0 ? Segment::kLeftThigh : Segment::kRightThigh] = placed(at, thigh);
-    at += thigh * Vector3d(0, 0, -p.thigh_m);
-    pose[side == 0 ? Segment::kLeftShin : Segment::kRightShin] = placed(at, shin);
-    at += shin * Vector3d(0, 0, -p.shin_m);
-    pose[side == 0 ? Segment::kLeftFoot : Segment::kRightFoot] = placed(at, leg.foot.normalized());
+    joint = joints.pelvis_m + pelvis * Vector3d(0, left * p.hip_width_m / 2, 0);
+    place(segments.thigh, joint, leg.thigh.normalized(), -p.thigh_m);
+    place(segments.shin, joint, leg.shin.normalized(), -p.shin_m);
+    pose[segments.foot] = placed(joint, leg.foot.normalized());
   }
   return pose;
 }

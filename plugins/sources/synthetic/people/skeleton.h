@@ -35,6 +35,17 @@ struct JointRotations {
   std::array<Leg, 2> legs;  ///< left, right
 };
 
+/// The segments that there are on both sides, by side: left, right.
+struct SideSegments {
+  Segment upper_arm, forearm, hand, thigh, shin, foot;
+};
+inline constexpr std::array<SideSegments, 2> kSides = {{
+    {Segment::kLeftUpperArm, Segment::kLeftForearm, Segment::kLeftHand, Segment::kLeftThigh,
+     Segment::kLeftShin, Segment::kLeftFoot},
+    {Segment::kRightUpperArm, Segment::kRightForearm, Segment::kRightHand, Segment::kRightThigh,
+     Segment::kRightShin, Segment::kRightFoot},
+}};
+
 /// The shoulder joint in the chest's frame; `left` is 1 for the left one and -1 for the right.
 Eigen::Vector3d shoulder_offset(const Proportions& proportions, double left);
 

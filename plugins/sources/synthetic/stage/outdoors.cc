@@ -44,30 +44,56 @@ void add_border(StageModel& m, const Eigen::Vector2d& from, const Eigen::Vector2
   }
 }
 
+/// Around the whole place.
+void add_borders(StageModel& m, const Rectangle& area, Random& draw) {
+  const Rectangle ring = area.grown(kHedgeDistance);
+  const Eigen::Vector2d c10(ring.high.x(), ring.low.y()), c01(ring.low.x(), ring.high.y());
+  add_border(m, ring.low, c10, draw);
+  add_border(m, c10, ring.high, draw);
+  add_border(m, c01, ring.high, draw);
+  add_border(m, ring.low, c01, draw);
+}
+
+void add_trees(StageModel& m, const Rectangle& area, Random& draw) {
+  for (int i = 0; i < 14; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + draw.uniform(-0.3, 0.3)) / 14;
+    const double distance = area.size().norm() / 2 + kHedgeDistance + draw.uniform(3, 7);
+    add_tree(m, area.center() + distance * Eigen::Vector2d(std::cos(angle), std::sin(angle)), draw);
+  }
+}
+
 /// Three houses along each side of the place.
 void add_houses(StageModel& m, const Rectangle& area, Random& draw) {
   const Rectangle street = area.grown(kHouseDistance);
   const Eigen::Vector2d c = area.center();
   const double depth = 8;
   for (int side = 0; side < 4; ++side) {
+    const int away = side / 2, along = 1 - away;  // the axes from the place to the side, and of it
+    const double front = side % 2 == 0 ? street.low[away] - depth : street.high[away];
     for (int i = -1; i <= 1; ++i) {
       const double half = draw.uniform(5, 7.5);
-      const double along = i * 17 + draw.uniform(-2, 2);
+      const double middle = i * 17 + draw.uniform(-2, 2);
       const float height = f(draw.uniform(6, 11));
       Eigen::Vector2d low, high;
-      if (side < 2) {
-        const double x = side == 0 ? street.low.x() - depth : street.high.x();
-        low = {x, c.y() + along - half};
-        high = {x + depth, c.y() + along + half};
-      } else {
-        const double y = side == 2 ? street.low.y() - depth : street.high.y();
-        low = {c.x() + along - half, y};
-        high = {c.x() + along + half, y + depth};
-      }
+      low[away] = front;
+      high[away] = front + depth;
+      low[along] = c[along] + middle - half;
+      high[along] = c[along] + middle + half;
       m.next_part();
       m.add_box({f(low.x()), f(low.y()), 0}, {f(high.x()), f(high.y()), height}, Material::kFacade);
     }
   }
+}
+
+Sun shining(Random& draw) {
+  Sun sun;
+  const double azimuth = draw.uniform(0, 2 * std::numbers::pi);
+  const double elevation = draw.uniform(28, 50) * std::numbers::pi / 180;
+  sun.towards = Vec3(f(std::cos(elevation) * std::cos(azimuth)),
+                     f(std::cos(elevation) * std::sin(azimuth)), f(std::sin(elevation)));
+  sun.radius_rad = 0.006f;  // the sun's own 0.0047, and a little haze
+  sun.irradiance = Rgb(3.0f, 2.75f, 2.35f);
+  return sun;
 }
 
 }  // namespace
@@ -78,27 +104,10 @@ void build_outdoors(StageModel& model, std::uint64_t seed) {
   const Rectangle far = area.grown(kGroundReach);
   model.add_quad({f(far.low.x()), f(far.low.y()), 0}, {f(far.size().x()), 0, 0},
                  {0, f(far.size().y()), 0}, Material::kGround);
-  const Rectangle ring = area.grown(kHedgeDistance);
-  const Eigen::Vector2d c10(ring.high.x(), ring.low.y()), c01(ring.low.x(), ring.high.y());
-  add_border(model, ring.low, c10, draw);
-  add_border(model, c10, ring.high, draw);
-  add_border(model, c01, ring.high, draw);
-  add_border(model, ring.low, c01, draw);
-  for (int i = 0; i < 14; ++i) {
-    const double angle = 2 * std::numbers::pi * (i + draw.uniform(-0.3, 0.3)) / 14;
-    const double distance = area.size().norm() / 2 + kHedgeDistance + draw.uniform(3, 7);
-    add_tree(model, area.center() + distance * Eigen::Vector2d(std::cos(angle), std::sin(angle)),
-             draw);
-  }
+  add_borders(model, area, draw);
+  add_trees(model, area, draw);
   add_houses(model, area, draw);
-  Sun sun;
-  const double azimuth = draw.uniform(0, 2 * std::numbers::pi);
-  const double elevation = draw.uniform(28, 50) * std::numbers::pi / 180;
-  sun.towards = Vec3(f(std::cos(elevation) * std::cos(azimuth)),
-                     f(std::cos(elevation) * std::sin(azimuth)), f(std::sin(elevation)));
-  sun.radius_rad = 0.006f;  // the sun's own 0.0047, and a little haze
-  sun.irradiance = Rgb(3.0f, 2.75f, 2.35f);
-  model.sun = sun;
+  model.sun = shining(draw);
   model.sky_zenith = Rgb(0.16f, 0.27f, 0.52f);
   model.sky_horizon = Rgb(0.55f, 0.62f, 0.72f);
 }
