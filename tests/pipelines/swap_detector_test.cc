@@ -57,8 +57,7 @@ json line_of(const std::string& use) {
   return line;
 }
 
-class SwapDetectorTest : public test::RunFixture,
-                         public ::testing::WithParamInterface<std::string> {
+class DetectorsTest : public test::RunFixture {
  protected:
   void SetUp() override {
     for (const auto& [use, line] : detectors()) {
@@ -160,6 +159,8 @@ class SwapDetectorTest : public test::RunFixture,
   std::shared_ptr<const Scene> scene_;
 };
 
+class SwapDetectorTest : public DetectorsTest, public ::testing::WithParamInterface<std::string> {};
+
 TEST_P(SwapDetectorTest, TakesOneLineOfAPipelineThatExtends) {
   const std::string base = GetParam() == "boxes" ? "hierarchical-grid" : "boxes";
   write_base(base);
@@ -202,6 +203,20 @@ TEST_P(SwapDetectorTest, WorksFromEachToEach) {
     EXPECT_EQ(pipeline.nodes[3].entry->declaration.name, GetParam()) << base;
     EXPECT_EQ(assemble(pipeline, scene_, folder_ / "out").nodes.size(), 5U) << base;
   }
+}
+
+TEST_F(DetectorsTest, ANetworkGivesTheSameBytesOnAnyNumberOfThreads) {
+  write_base("onnx");
+  const ResolvedPipeline pipeline =
+      read_pipeline({.file = folder_ / "base.json", .sets = {}}, real_registry());
+  for (const int threads : {1, 4}) {
+    RunOptions options = options_;
+    options.threads = threads;
+    options.output_folder = folder_ / std::to_string(threads);
+    EXPECT_TRUE(run_pipeline(pipeline, scene_, options).complete);
+  }
+  EXPECT_GT(test::lines_of(folder_ / "1/observations.ground.csv").size(), 2U * kFrames);
+  EXPECT_EQ(comparable("4"), comparable("1"));
 }
 
 std::string test_name(const ::testing::TestParamInfo<std::string>& test) {

@@ -101,7 +101,7 @@ class Network::Borrowed {
              network_.copies_ < network_.most_copies_;
     });
     if (!network_.free_.empty()) {
-      net_ = std::move(network_.free_.back());
+      net_ = network_.free_.back();  // a handle
       network_.free_.pop_back();
       return;
     }
@@ -118,7 +118,7 @@ class Network::Borrowed {
   }
   ~Borrowed() {
     const std::lock_guard lock(network_.mutex_);
-    network_.free_.push_back(std::move(net_));
+    network_.free_.push_back(net_);
     network_.given_back_.notify_one();
   }
   Borrowed(const Borrowed&) = delete;

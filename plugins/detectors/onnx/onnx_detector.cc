@@ -10,6 +10,10 @@
 namespace plaza {
 namespace {
 
+/// Width and height of an input at most; more is a damaged file or a slip, and would take
+/// gigabytes.
+constexpr int kMostPixels = 8192;
+
 [[noreturn]] void refuse(const std::string& pointer, const std::string& message) {
   Diagnostic fault;
   fault.pointer = pointer;
@@ -66,6 +70,7 @@ Declaration<OnnxDetector::Options> OnnxDetector::declare() {
       .unit("px")
       .items(2, 2)
       .at_least(1)
+      .at_most(kMostPixels)
       .meaning("width and height of the network's input; not set: as the model declares it");
   p.choice("fit", &Options::fit, {"letterbox", "stretch"})
       .meaning("images keep their proportions, with padding around them, or fill the input");
@@ -143,6 +148,11 @@ cv::Size OnnxDetector::input_size(const std::string& bytes) const {
     refuse("/model", model + " takes " + to_string(as_tensor_shape(shape)) +
                          "; a detection network takes one image of three channels, [1, 3, "
                          "height, width]: export it for a batch of one, channels first");
+  }
+  if (shape[2] > kMostPixels || shape[3] > kMostPixels) {
+    refuse("/model", model + " takes images of " + std::to_string(shape[3]) + "x" +
+                         std::to_string(shape[2]) + "; at most " + std::to_string(kMostPixels) +
+                         " pixels a side are possible: it is damaged, or export a smaller one");
   }
   const cv::Size declared(static_cast<int>(shape[3]), static_cast<int>(shape[2]));
   if (!options_.input_size) {

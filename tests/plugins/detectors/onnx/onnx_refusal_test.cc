@@ -129,6 +129,8 @@ TEST_F(OnnxRefusalTest, AnInputSizeThatTheNetworkCanNotTake) {
 TEST_F(OnnxRefusalTest, InputsThatAreNoImage) {
   model(sigmoid_of({1, 64, 64, 3}));
   EXPECT_THAT(fault(), AllOf(HasSubstr("[1, 64, 64, 3]"), HasSubstr("channels first")));
+  model(sigmoid_of({1, 3, 64, 100000}));
+  EXPECT_THAT(fault(), HasSubstr("takes images of 100000x64; at most 8192"));
   model(sigmoid_of({8, 3, 64, 64}));
   EXPECT_THAT(fault(), HasSubstr("batch of one"));
   OnnxWriter writer({1, 3, 8, 8});
