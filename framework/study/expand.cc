@@ -41,12 +41,12 @@ class Expander {
   void check_size() const {
     std::size_t jobs = std::max<std::size_t>(study_.seeds.size(), 1);
     for (const Axis& axis : study_.axes) {
-      jobs *= axis.values.size();
-      if (jobs > kMaxStudyJobs) {
-        throw UserError(study_.file.string() + ": the axes make more than " +
-                        std::to_string(kMaxStudyJobs) + " runs; split the study");
-      }
+      if (jobs <= kMaxStudyJobs) jobs *= axis.values.size();
     }
+    if (jobs <= kMaxStudyJobs) return;
+    throw user_error(study_.axes.empty() ? study_.seeds_origin : study_.axes_origin,
+                     "axes and seeds make more than " + std::to_string(kMaxStudyJobs) +
+                         " runs; split the study");
   }
 
   bool next(std::vector<std::size_t>& at) const {

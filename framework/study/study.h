@@ -56,6 +56,7 @@ struct Study {
   Change base;
   Origin pipeline_origin;
   std::vector<Axis> axes;
+  Origin axes_origin;
   std::vector<std::uint64_t> seeds;          ///< repetitions; empty: one, with the pipeline's own
   std::vector<std::string> seed_parameters;  ///< where they are set
   Origin seeds_origin;

@@ -85,6 +85,7 @@ class StudyReader {
   void read_axes() {
     const ConfigValue* axes = root_.find("axes");
     if (axes == nullptr) return;  // repetitions alone are a study, too
+    study_.axes_origin = axes->origin;
     if (!axes->is_array()) {
       fields_.fail(axes->origin, "expected a list of axes, got " + type_name(*axes));
       return;

@@ -63,7 +63,25 @@ TEST_F(ExpandTest, RefusesMoreRunsThanAnybodyMeans) {
   const Study s = study(
       R"("axes": [ { "name": "a", "set": "/nodes/tracks/delay", "values": [)" + values +
       R"(] }, { "name": "b", "set": "/nodes/cameras/frames", "values": [)" + values + "] } ]");
-  EXPECT_THROW(expand(s, registry_), UserError);
+  try {
+    expand(s, registry_);
+    FAIL() << "no fault";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("study.json:1:51: /axes: axes and seeds make more than 100000 runs"));
+  }
+}
+
+TEST_F(ExpandTest, RefusesMoreSeedsThanAnybodyMeans) {
+  std::string seeds = "0";
+  for (std::size_t i = 1; i <= kMaxStudyJobs; ++i) seeds += "," + std::to_string(i);
+  const Study s = study("\"seeds\": [" + seeds + "]");
+  try {
+    expand(s, registry_);
+    FAIL() << "no fault";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("study.json:1:52: /seeds: axes and seeds make more than"));
+  }
 }
 
 TEST_F(ExpandTest, ValuesReachThePipelineByTheRulesOfExtends) {
