@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "framework/config/json_document.h"
 #include "plaza/core/diagnostic.h"
@@ -12,10 +11,12 @@
 
 namespace plaza {
 
-/// What a calibration file says of one camera, before it is checked. Lengths of the pose are in the
+class Fields;
+
+/// What a calibration says of one camera, before it is checked. Lengths of the pose are in the
 /// file's own unit.
 struct Calibration {
-  std::variant<PinholeIntrinsics, TsaiIntrinsics> intrinsics;
+  Intrinsics intrinsics;
   CameraFromWorld pose;
   std::optional<Eigen::Vector2i> image_size;  ///< that it was made for, where the file says so
   FilePosition where;                         ///< the camera in the file
@@ -52,6 +53,13 @@ struct TextFile {
 /// OpenCV's FileStorage in YAML, XML or JSON, and ROS's camera_info YAML; the pose may stand in a
 /// file of its own. Known names: docs/scenes.md.
 Calibration parse_opencv(const TextFile& intrinsics, const TextFile* pose);
+
+// Calibrations without a file, from a scene's own "calibration" object, in metres. Nothing where a
+// number is missing or wrong, which is then reported in `fields`.
+
+std::optional<Calibration> read_pinhole(Fields& fields);
+/// The numbers of TsaiIntrinsics by their names; the pose as for pinholes.
+std::optional<Calibration> read_tsai(Fields& fields);
 
 /// R = Rz(rz) Ry(ry) Rx(rx), angles in radians (Tsai's convention).
 Eigen::Matrix3d tsai_rotation(double rx, double ry, double rz);

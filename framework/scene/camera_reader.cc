@@ -30,8 +30,8 @@ class CameraReader {
     const auto size = entry_.image_size("image_size");
     entry_.refuse_unknown();
     std::optional<Camera> camera;
-    const auto format = fields_.choice(
-        "format", {"tsai-xml", "tsai-json", "opencv", "rtk-json", "homographies", "pinhole"});
+    const auto format = fields_.choice("format", {"tsai-xml", "tsai-json", "opencv", "rtk-json",
+                                                  "homographies", "pinhole", "tsai"});
     if (format) {
       name_ = name.value_or("?");
       size_ = size.value_or(Eigen::Vector2i(1, 1));
@@ -102,7 +102,8 @@ class CameraReader {
   }
 
   std::optional<Calibration> calibration(const std::string& format) {
-    if (format == "pinhole") return pinhole();
+    if (format == "pinhole") return read_pinhole(fields_);
+    if (format == "tsai") return read_tsai(fields_);
     const auto main = file("file");
     if (format == "tsai-xml") {
       if (main) return parse_tsai_xml(main->text, main->file);
@@ -131,51 +132,9 @@ class CameraReader {
     return std::nullopt;
   }
 
-  std::optional<Calibration> pinhole() {
-    const auto fx = fields_.positive("fx_px"), fy = fields_.positive("fy_px");
-    const auto cx = fields_.number("cx_px"), cy = fields_.number("cy_px");
-    Distortion distortion;
-    if (fields_.find("distortion") != nullptr) {
-      const auto d = fields_.numbers("distortion", 5);
-      if (!d) return std::nullopt;
-      distortion = {(*d)[0], (*d)[1], (*d)[2], (*d)[3], (*d)[4]};
-    }
-    const auto pose = inline_pose();
-    if (!fx || !fy || !cx || !cy || !pose) return std::nullopt;
-    return Calibration{PinholeIntrinsics{*fx, *fy, *cx, *cy, distortion}, *pose, std::nullopt,
-                       fields_.document().position(fields_.pointer())};
-  }
-
-  /// Either rotation and translation_m, or the camera's centre and a point it looks at.
-  std::optional<CameraFromWorld> inline_pose() {
-    CameraFromWorld pose;
-    const bool looks = fields_.has("look_at_m") || fields_.has("centre_m");
-    if (!looks) {
-      const auto rotation = fields_.matrix3("rotation");
-      const auto t = fields_.numbers("translation_m", 3);
-      if (!rotation || !t) return std::nullopt;
-      return CameraFromWorld{*rotation, Eigen::Vector3d(t->data())};
-    }
-    const auto centre = fields_.numbers("centre_m", 3), target = fields_.numbers("look_at_m", 3);
-    if (!centre || !target) return std::nullopt;
-    const Eigen::Vector3d eye(centre->data());
-    const Eigen::Vector3d forward = Eigen::Vector3d(target->data()) - eye;
-    const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ());
-    if (!(right.norm() > 1e-6 * forward.norm())) {
-      fields_.fault("look_at_m",
-                    "must not be straight above or below centre_m: which way is up in "
-                    "the image is undefined then; give rotation and translation_m");
-      return std::nullopt;
-    }
-    const Eigen::Vector3d x = right.normalized(), z = forward.normalized();
-    pose.rotation << x.transpose(), z.cross(x).transpose(), z.transpose();
-    pose.translation = -pose.rotation * eye;
-    return pose;
-  }
-
   std::optional<Camera> metric(const std::string& format) {
     std::optional<std::string> unit = "m";
-    if (format != "pinhole") {
+    if (format != "pinhole" && format != "tsai") {
       unit = fields_.choice("unit", kUnits, format == "opencv" ? "m" : "mm");
     }
     std::optional<Eigen::Vector2i> calibrated;

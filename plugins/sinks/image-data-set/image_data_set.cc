@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <ostream>
 #include <utility>
+#include <variant>
 
 #include "plaza/core/parallel.h"
-#include "plugins/sinks/image-data-set/pinhole_fit.h"
 
 namespace plaza::data_set {
 namespace {
@@ -27,8 +27,7 @@ std::string text(const char* format, auto... values) {
 
 Json pair(double a, double b) { return Json::array({a, b}); }
 
-Json calibration(const Camera& camera) {
-  const PinholeIntrinsics in = fit_pinhole(camera).value();
+Json numbers_of(const PinholeIntrinsics& in) {
   const Distortion& d = in.distortion;
   Json out;
   out["format"] = "pinhole";
@@ -36,7 +35,27 @@ Json calibration(const Camera& camera) {
   out["fy_px"] = in.fy_px;
   out["cx_px"] = in.cx_px;
   out["cy_px"] = in.cy_px;
+  if (in.skew_px != 0) out["skew_px"] = in.skew_px;
   out["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  return out;
+}
+
+Json numbers_of(const TsaiIntrinsics& in) {
+  Json out;
+  out["format"] = "tsai";
+  out["focal_mm"] = in.focal_mm;
+  out["kappa1_per_mm2"] = in.kappa1_per_mm2;
+  out["dpx_mm"] = in.dpx_mm;
+  out["dpy_mm"] = in.dpy_mm;
+  out["sx"] = in.sx;
+  out["cx_px"] = in.cx_px;
+  out["cy_px"] = in.cy_px;
+  return out;
+}
+
+/// Of the camera as it is: a scene that had "calibrated_size" needs none any more.
+Json calibration(const Camera& camera) {
+  Json out = std::visit([](const auto& in) { return numbers_of(in); }, camera.intrinsics());
   for (int row = 0; row < 3; ++row) {
     const auto r = camera.pose().rotation.row(row);
     out["rotation"].push_back({r[0], r[1], r[2]});
@@ -71,19 +90,6 @@ ImageDataSet::ImageDataSet(const Options& options, const BuildContext& context)
     : options_(options), scene_(context.scene), folder_(context.output_folder / options.folder) {}
 
 Learner* ImageDataSet::learner() { return options_.people_free > 0 ? this : nullptr; }
-
-Diagnostics ImageDataSet::do_check() const {
-  Diagnostics faults;
-  for (const Camera& camera : scene_->cameras) {
-    if (fit_pinhole(camera)) continue;
-    Diagnostic fault;
-    fault.message = "camera '" + camera.name() +
-                    "' is no pinhole camera with Brown-Conrady distortion, the only calibration "
-                    "that can be written; use a scene with such cameras";
-    faults.push_back(std::move(fault));
-  }
-  return faults;
-}
 
 std::optional<LearningPlan> ImageDataSet::do_plan() const {
   return LearningPlan{.people_free_only = true, .first = {}, .every = 1};

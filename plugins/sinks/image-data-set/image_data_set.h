@@ -31,7 +31,6 @@ class ImageDataSet final : public Sink, public Learner {
   Learner* learner() override;
 
  private:
-  Diagnostics do_check() const override;
   void do_write(const NodeIo& io) override;
   void do_write_rest(const NodeIo& io) override;
   std::vector<Artifact> do_finish(bool complete) override;

@@ -43,7 +43,7 @@ Camera Camera::pinhole(std::string name, Eigen::Vector2i image_size,
   model.image_size = std::move(image_size);
   model.pose = pose;
   model.lens = Lens(d);
-  model.pixel_from_lens.diagonal() << intrinsics.fx_px, intrinsics.fy_px;
+  model.pixel_from_lens << intrinsics.fx_px, intrinsics.skew_px, 0, intrinsics.fy_px;
   model.principal_point << intrinsics.cx_px, intrinsics.cy_px;
   return from_model(std::move(model));
 }
@@ -62,6 +62,8 @@ Camera Camera::tsai(std::string name, Eigen::Vector2i image_size, const TsaiIntr
   model.lens = Lens::tsai(in.kappa1_per_mm2 * in.focal_mm * in.focal_mm);
   model.pixel_from_lens.diagonal() << in.sx * in.focal_mm / in.dpx_mm, in.focal_mm / in.dpy_mm;
   model.principal_point << in.cx_px, in.cy_px;
+  model.focal_mm = in.focal_mm;
+  model.sx = in.sx;
   return from_model(std::move(model));
 }
 
@@ -70,6 +72,26 @@ int Camera::width() const { return model_->image_size.x(); }
 int Camera::height() const { return model_->image_size.y(); }
 const CameraFromWorld& Camera::pose() const { return model_->pose; }
 Eigen::Vector3d Camera::centre() const { return model_->centre; }
+
+Intrinsics Camera::intrinsics() const {
+  const Model& m = *model_;
+  const Eigen::Matrix2d& k = m.pixel_from_lens;
+  if (m.focal_mm > 0) {
+    return TsaiIntrinsics{.focal_mm = m.focal_mm,
+                          .kappa1_per_mm2 = m.lens.tsai_kappa() / (m.focal_mm * m.focal_mm),
+                          .dpx_mm = m.sx * m.focal_mm / k(0, 0),
+                          .dpy_mm = m.focal_mm / k(1, 1),
+                          .sx = m.sx,
+                          .cx_px = m.principal_point.x(),
+                          .cy_px = m.principal_point.y()};
+  }
+  return PinholeIntrinsics{.fx_px = k(0, 0),
+                           .fy_px = k(1, 1),
+                           .cx_px = m.principal_point.x(),
+                           .cy_px = m.principal_point.y(),
+                           .distortion = m.lens.coefficients(),
+                           .skew_px = k(0, 1)};
+}
 
 std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& x_world) const {
   const Model& m = *model_;

@@ -18,6 +18,9 @@ struct Camera::Model {
   Eigen::Matrix2d pixel_from_lens = Eigen::Matrix2d::Identity();  ///< upper triangular
   Eigen::Vector2d principal_point = Eigen::Vector2d::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  /// Tsai's model only, 0 for any other: projections show no more than its ratio to pixel sizes.
+  double focal_mm = 0;
+  double sx = 1;  ///< likewise
 
   /// A pixel and how it moves with the world point, 2 x 3, pixels per metre.
   struct Projection {

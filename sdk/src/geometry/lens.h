@@ -21,6 +21,9 @@ class Lens {
   static Lens tsai(double kappa);
 
   bool is_ideal() const { return kind_ == Kind::kIdeal; }
+  /// What the lens was made with: Brown-Conrady's coefficients and Tsai's; 0 for the other model.
+  const Distortion& coefficients() const { return coefficients_; }
+  double tsai_kappa() const { return kappa_; }
   std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& ideal) const;
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
   /// d distorted / d ideal at `ideal`, which must be a point that distort() accepts.

@@ -11,6 +11,8 @@
 #include <string>
 
 #include "plaza/core/error.h"
+#include "tests/sdk/geometry/same_camera.h"
+#include "tests/sdk/geometry/test_cameras.h"
 
 namespace plaza {
 namespace {
@@ -82,6 +84,48 @@ TEST(SceneFileTest, ImagesSmallerThanTheCalibrationsAreScaled) {
   const auto scene = parse(scene_text(calibration, "[320, 240]"));
   const auto pixel = scene->cameras[0].project({0, 0, 1});
   EXPECT_LT((*pixel - Eigen::Vector2d(159.75, 119.75)).norm(), 1e-9);
+}
+
+constexpr const char* kTsai =
+    R"({"format": "tsai", "focal_mm": 20.161, "kappa1_per_mm2": 0.00148, "dpx_mm": 0.023,
+        "dpy_mm": 0.0229, "sx": 1.02, "cx_px": 366.5, "cy_px": 305.8, "calibrated_size": [720, 576],
+        "rotation": [0, -1, 0, 0, 0, -1, 1, 0, 0], "translation_m": [0.2, 2, 8]})";
+
+TEST(SceneFileTest, TsaisNumbersMayStandInTheScene) {
+  CameraFromWorld pose;
+  pose.rotation << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  pose.translation << 0.2, 2, 8;
+  TsaiIntrinsics in{20.161, 0.00148, 0.023, 0.0229, 1.02, 366.5, 305.8};
+  const Camera full = Camera::tsai("left", {720, 576}, in, pose);
+  test::expect_same_camera(parse(scene_text(kTsai, "[720, 576]"))->cameras[0], full);
+  test::expect_same_camera(parse(scene_text(kTsai, "[360, 288]"))->cameras[0],
+                           full.scaled({360, 288}));
+  std::string without_sx = kTsai;
+  without_sx.erase(without_sx.find(R"("sx": 1.02, )"), 12);
+  in.sx = 1;
+  test::expect_same_camera(parse(scene_text(without_sx, "[720, 576]"))->cameras[0],
+                           Camera::tsai("left", {720, 576}, in, pose));
+}
+
+TEST(SceneFileTest, TsaisNumbersAreAllNeeded) {
+  for (const char* key : {"focal_mm", "kappa1_per_mm2", "dpx_mm", "dpy_mm", "cx_px", "cy_px",
+                          "rotation", "translation_m"}) {
+    auto calibration = nlohmann::json::parse(kTsai);
+    calibration.erase(key);
+    EXPECT_THAT(scene_fault(scene_text(calibration.dump(), "[720, 576]")),
+                HasSubstr("/cameras/0/calibration: \"" + std::string(key) + "\" is missing"));
+  }
+}
+
+TEST(SceneFileTest, PixelsMayBeSkewed) {
+  std::string calibration = kPinhole;
+  calibration.insert(calibration.size() - 1, R"(, "skew_px": 30)");
+  const Camera skewed = parse(scene_text(calibration))->cameras[0];
+  const Camera straight = parse(scene_text(kPinhole))->cameras[0];
+  const Eigen::Vector3d x(1, 0.5, 0.2);
+  const Eigen::Vector2d a = *straight.project(x), b = *skewed.project(x);
+  EXPECT_NEAR(b.x() - a.x(), 30 * (a.y() - 240) / 600, 1e-9);
+  EXPECT_NEAR(b.y(), a.y(), 1e-9);
 }
 
 TEST(SceneFileTest, HomographiesInUnitsOfATopViewGiveTheSameCamera) {
@@ -173,7 +217,7 @@ assert len(shipped) >= 4
 for f in shipped:
   for e in validator.iter_errors(json.load(open(f))): sys.exit(f + ': ' + e.message)
 for name in ['misspelt-keys', 'wrong-types', 'no-cameras', 'wrong-version', 'name-with-slash',
-             'unknown-format', 'unknown-unit', 'tsai-json-without-size', 'focal-length-not-positive',
+             'unknown-format', 'unknown-unit', 'tsai-json-without-size', 'tsai-inline-misspelt', 'focal-length-not-positive',
              'everything-at-once']:
   f = root + '/tests/error/scenes/' + name + '.json'
   if validator.is_valid(json.load(open(f))): sys.exit(f + ' should be refused')

@@ -6,6 +6,7 @@
 
 #include "plaza/core/error.h"
 #include "plaza/geometry/camera.h"
+#include "tests/sdk/geometry/same_camera.h"
 #include "tests/sdk/geometry/test_cameras.h"
 
 namespace plaza {
@@ -59,7 +60,10 @@ TEST(PlaneHomographiesTest, KeepSkewAndScaleWithTheImage) {
   const Eigen::Vector3d x(1, -0.5, 0);
   const Eigen::Vector2d expected = (ground * Eigen::Vector3d(1, -0.5, 1)).hnormalized();
   EXPECT_LT((*camera.project(x) - expected).norm(), 1e-8);
+  test::expect_same_camera(camera, test::made_again(camera));
   const Camera half = camera.scaled({320, 240});
+  test::expect_same_camera(half, test::made_again(half));
+  EXPECT_NE(std::get<PinholeIntrinsics>(half.intrinsics()).skew_px, 0);
   EXPECT_NEAR(half.project(x)->x() + 0.5, (expected.x() + 0.5) / 2, 1e-8);
   EXPECT_LT((*half.to_plane(*half.project(x)) - x.head<2>()).norm(), 1e-8);
 }

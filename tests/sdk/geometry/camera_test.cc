@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
+#include "tests/sdk/geometry/same_camera.h"
 #include "tests/sdk/geometry/test_cameras.h"
 
 namespace plaza {
@@ -225,6 +226,48 @@ TEST(CameraTest, ScalingKeepsThePartOfTheImageAPointFallsOn) {
     EXPECT_NEAR((a->y() + 0.5) / 2, b->y() + 0.5, 1e-9) << camera.name();
     const Camera again = half.scaled({640, 480});
     EXPECT_LT((*again.project(x) - *a).norm(), 1e-9);
+  }
+}
+
+TEST(CameraTest, ItsIntrinsicNumbersMakeTheCameraAgain) {
+  for (const Camera& camera : cameras_of_all_models(look_at({8, 1, 4}, {0, 0, 1}))) {
+    test::expect_same_camera(camera, test::made_again(camera));
+    const Camera scaled = camera.scaled({213, 360});
+    test::expect_same_camera(scaled, test::made_again(scaled));
+  }
+}
+
+TEST(CameraTest, ItsIntrinsicNumbersAreThoseItWasMadeOf) {
+  PinholeIntrinsics in = test::intrinsics({-0.32, 0.11, 4e-3, -3e-3, -0.01});
+  in.skew_px = 2.5;
+  const auto pinhole =
+      std::get<PinholeIntrinsics>(Camera::pinhole("p", {640, 480}, in, {}).intrinsics());
+  EXPECT_EQ(pinhole.fx_px, in.fx_px);
+  EXPECT_EQ(pinhole.fy_px, in.fy_px);
+  EXPECT_EQ(pinhole.cx_px, in.cx_px);
+  EXPECT_EQ(pinhole.cy_px, in.cy_px);
+  EXPECT_EQ(pinhole.skew_px, in.skew_px);
+  EXPECT_EQ(pinhole.distortion.k1, in.distortion.k1);
+  EXPECT_EQ(pinhole.distortion.k2, in.distortion.k2);
+  EXPECT_EQ(pinhole.distortion.p1, in.distortion.p1);
+  EXPECT_EQ(pinhole.distortion.p2, in.distortion.p2);
+  EXPECT_EQ(pinhole.distortion.k3, in.distortion.k3);
+  for (const double kappa1 : {2e-2, 0.0, -1.2e-2}) {
+    const TsaiIntrinsics given = test::tsai_intrinsics(kappa1);
+    const Camera camera = Camera::tsai("t", {640, 480}, given, {});
+    const auto tsai = std::get<TsaiIntrinsics>(camera.intrinsics());
+    EXPECT_DOUBLE_EQ(tsai.focal_mm, given.focal_mm);
+    EXPECT_DOUBLE_EQ(tsai.kappa1_per_mm2, given.kappa1_per_mm2);
+    EXPECT_DOUBLE_EQ(tsai.dpx_mm, given.dpx_mm);
+    EXPECT_DOUBLE_EQ(tsai.dpy_mm, given.dpy_mm);
+    EXPECT_DOUBLE_EQ(tsai.sx, given.sx);
+    EXPECT_DOUBLE_EQ(tsai.cx_px, given.cx_px);
+    EXPECT_DOUBLE_EQ(tsai.cy_px, given.cy_px);
+    // half the pixels in a row: each is twice as wide, and the lens is the same
+    const auto halved = std::get<TsaiIntrinsics>(camera.scaled({320, 480}).intrinsics());
+    EXPECT_DOUBLE_EQ(halved.dpx_mm, 2 * given.dpx_mm);
+    EXPECT_DOUBLE_EQ(halved.dpy_mm, given.dpy_mm);
+    EXPECT_DOUBLE_EQ(halved.kappa1_per_mm2, given.kappa1_per_mm2);
   }
 }
 

@@ -46,4 +46,15 @@ inline std::vector<Camera> cameras_of_all_models(const CameraFromWorld& pose) {
           Camera::tsai("tsai-ideal", size, tsai_intrinsics(0), pose)};
 }
 
+/// What `camera` says of itself, made into a camera again.
+inline Camera made_again(const Camera& camera) {
+  const Eigen::Vector2i size(camera.width(), camera.height());
+  const Intrinsics intrinsics = camera.intrinsics();
+  if (const auto* tsai = std::get_if<TsaiIntrinsics>(&intrinsics)) {
+    return Camera::tsai(camera.name(), size, *tsai, camera.pose());
+  }
+  return Camera::pinhole(camera.name(), size, std::get<PinholeIntrinsics>(intrinsics),
+                         camera.pose());
+}
+
 }  // namespace plaza::test

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "plaza/core/export.h"
 #include "plaza/geometry/box.h"
@@ -45,7 +46,11 @@ struct PinholeIntrinsics {
   double cx_px = 0;
   double cy_px = 0;
   Distortion distortion;
+  double skew_px = 0;  ///< column = fx x + skew y + cx; not 0 where pixels are no rectangles
 };
+
+/// What stands behind the pose: from camera coordinates to pixels.
+using Intrinsics = std::variant<PinholeIntrinsics, TsaiIntrinsics>;
 
 struct Body;
 
@@ -76,6 +81,10 @@ class PLAZA_API Camera {
   int height() const;
   /// The same for every model, for homographies as they decompose.
   const CameraFromWorld& pose() const;
+  /// The lens model, of a scaled camera for its own image size; homographies decompose to a
+  /// pinhole with skew. With these numbers, its size and pose() the factories give this camera
+  /// again, up to rounding.
+  Intrinsics intrinsics() const;
   /// Optical centre in the world, metres.
   Eigen::Vector3d centre() const;
 

@@ -2,15 +2,19 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <sstream>
 
+#include "framework/scene/scene_file.h"
 #include "plaza/geometry/angle.h"
-#include "plugins/sinks/image-data-set/pinhole_fit.h"
 #include "plugins/sources/detections/ground_truth_source.h"
 #include "plugins/sources/images/images_source.h"
 #include "tests/plugins/sources/source_harness.h"
+#include "tests/sdk/geometry/same_camera.h"
+#include "tests/sdk/geometry/test_cameras.h"
 
 namespace plaza::data_set {
 namespace {
@@ -35,13 +39,14 @@ FrameSet frame_of(int frame, int views) {
   return out;
 }
 
-GroundTruth truth_of(int frame) {
+GroundTruth truth_of(int frame, int views = 2) {
   GroundTruth truth;
   TruePerson& person = truth.people.emplace_back();
   person.id = 7;
   person.position_m = Eigen::Vector2d(1.25, 0.1 * frame);
   person.heading_rad = 0.5;
   person.views = {{0, {1.5, 2.25, 10, 20.5}, 0.5}, {1, {3, 4, 11, 21}, 1.0}};
+  if (views < 2) person.views.pop_back();
   return truth;
 }
 
@@ -57,11 +62,12 @@ class ImageDataSetTest : public testing::Test {
 
   /// Three frames, and two people-free images before them.
   void write(ImageDataSet& sink) const {
-    for (int i = 0; i < 2; ++i) sink.learner()->learn(frame_of(100 + i, 2));
+    const int views = static_cast<int>(scene_->cameras.size());
+    for (int i = 0; i < 2; ++i) sink.learner()->learn(frame_of(100 + i, views));
     sink.learner()->finish(2);
     for (int frame = 0; frame < 3; ++frame) {
-      std::vector<PayloadPtr> slots = {std::make_shared<FrameSet>(frame_of(frame, 2)),
-                                       std::make_shared<GroundTruth>(truth_of(frame))};
+      std::vector<PayloadPtr> slots = {std::make_shared<FrameSet>(frame_of(frame, views)),
+                                       std::make_shared<GroundTruth>(truth_of(frame, views))};
       const std::vector<int> inputs = {0, 1};
       NodeIo io(frame, scene_->time_of_frame(frame), slots.data(), inputs, {});
       sink.process(io);
@@ -180,33 +186,55 @@ TEST_F(ImageDataSetTest, JpegIsSmallerTheLowerItsQuality) {
   EXPECT_LT(sizes[0], sizes[1]);
 }
 
-TEST(PinholeFit, FindsTheNumbersAgain) {
-  PinholeIntrinsics in;
-  in.fx_px = 502.4;
-  in.fy_px = 499.1;
-  in.cx_px = 381.3;
-  in.cy_px = 236.2;
-  in.distortion = {-0.182, 0.048, 0.0006, -0.0004, 0};
-  const Camera camera = Camera::pinhole("a", {752, 480}, in, {});
-  const auto out = fit_pinhole(camera);
-  ASSERT_TRUE(out);
-  EXPECT_NEAR(out->fx_px, in.fx_px, 1e-6);
-  EXPECT_NEAR(out->cy_px, in.cy_px, 1e-6);
-  EXPECT_NEAR(out->distortion.k1, in.distortion.k1, 1e-8);
-  EXPECT_NEAR(out->distortion.p2, in.distortion.p2, 1e-8);
+/// Reads back the scene that a data set of `scene_` has, and compares all cameras.
+class WrittenScenes : public ImageDataSetTest {
+ protected:
+  void expect_read_back() const {
+    write(*make());
+    const auto again = read_scene(data() / "scene.json");
+    ASSERT_EQ(again->cameras.size(), scene_->cameras.size());
+    for (std::size_t c = 0; c < scene_->cameras.size(); ++c) {
+      EXPECT_EQ(again->cameras[c].name(), scene_->cameras[c].name());
+      test::expect_same_camera(scene_->cameras[c], again->cameras[c]);
+      EXPECT_EQ(again->cameras[c].intrinsics().index(), scene_->cameras[c].intrinsics().index());
+    }
+  }
+};
+
+TEST_F(WrittenScenes, HaveCamerasOfEveryKind) {
+  const CameraFromWorld pose = test::look_at({8, 1, 4}, {0, 0, 1});
+  scene_->cameras = test::cameras_of_all_models(pose);
+  scene_->area = {{-3, -3}, {3, 3}};
+  Eigen::Matrix3d k;
+  k << 600, 25, 322, 0, 590, 241, 0, 0, 1;
+  const auto plane = [&](double z) {
+    Eigen::Matrix3d m;
+    m << pose.rotation.leftCols<2>(), pose.rotation.col(2) * z + pose.translation;
+    return Eigen::Matrix3d(k * m);
+  };
+  scene_->cameras.push_back(
+      Camera::plane_homographies("homographies", {640, 480}, plane(0), plane(1.8), 1.8));
+  expect_read_back();
+  for (Camera& camera : scene_->cameras) camera = camera.scaled({400, 240});
+  expect_read_back();
 }
 
-TEST_F(ImageDataSetTest, ACameraThatCannotBeWrittenIsRefused) {
-  TsaiIntrinsics tsai;
-  tsai.focal_mm = 5.5;
-  tsai.kappa1_per_mm2 = 0.02;
-  tsai.dpx_mm = tsai.dpy_mm = 0.05;
-  tsai.cx_px = 32;
-  tsai.cy_px = 24;
-  EXPECT_TRUE(make()->check().empty());
-  scene_->cameras.push_back(Camera::tsai("odd", {64, 48}, tsai, scene_->cameras[0].pose()));
-  EXPECT_THAT(sources::texts(make()->check()),
-              testing::ElementsAre(testing::HasSubstr("camera 'odd' is no pinhole camera")));
+TEST_F(WrittenScenes, AreTheShippedOnesWithTheirRealCameras) {
+  const char* set = std::getenv("PLAZA_DATA");
+  const std::filesystem::path real = set != nullptr ? set : PLAZA_SOURCE_DIR "/../shared/data";
+  if (!std::filesystem::is_directory(real)) GTEST_SKIP() << "no data; set PLAZA_DATA";
+  setenv("PLAZA_DATA", real.c_str(), 1);
+  int scenes = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(PLAZA_SOURCE_DIR "/pipelines/scenes")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(".json") || name.ends_with(".schema.json")) continue;
+    SCOPED_TRACE(name);
+    scene_ = std::make_shared<Scene>(*read_scene(entry.path()));
+    expect_read_back();
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 4);
 }
 
 }  // namespace
