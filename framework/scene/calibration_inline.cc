@@ -8,7 +8,7 @@ namespace plaza {
 namespace {
 
 /// Either rotation and translation_m, or the camera's centre and a point it looks at.
-std::optional<CameraFromWorld> read_pose(Fields& fields) {
+std::optional<CameraFromWorld> read_inline_pose(Fields& fields) {
   CameraFromWorld pose;
   const bool looks = fields.has("look_at_m") || fields.has("centre_m");
   if (!looks) {
@@ -47,7 +47,7 @@ std::optional<Calibration> read_pinhole(Fields& fields) {
   const auto skew = fields.number("skew_px", 0);
   const auto d = fields.find("distortion") != nullptr ? fields.numbers("distortion", 5)
                                                       : std::vector<double>(5, 0.0);
-  const auto pose = read_pose(fields);
+  const auto pose = read_inline_pose(fields);
   if (!fx || !fy || !cx || !cy || !skew || !d || !pose) return std::nullopt;
   const Distortion distortion{(*d)[0], (*d)[1], (*d)[2], (*d)[3], (*d)[4]};
   return calibration_of(PinholeIntrinsics{*fx, *fy, *cx, *cy, distortion, *skew}, *pose, fields);
@@ -59,7 +59,7 @@ std::optional<Calibration> read_tsai(Fields& fields) {
   const auto dpx = fields.positive("dpx_mm"), dpy = fields.positive("dpy_mm");
   const auto sx = fields.find("sx") != nullptr ? fields.positive("sx") : 1;
   const auto cx = fields.number("cx_px"), cy = fields.number("cy_px");
-  const auto pose = read_pose(fields);
+  const auto pose = read_inline_pose(fields);
   if (!focal || !kappa1 || !dpx || !dpy || !sx || !cx || !cy || !pose) return std::nullopt;
   return calibration_of(TsaiIntrinsics{*focal, *kappa1, *dpx, *dpy, *sx, *cx, *cy}, *pose, fields);
 }
