@@ -101,10 +101,10 @@ void ColorModality::do_match(const Evidence& evidence, const TemplateBatch& temp
 }
 
 EvidencePtr ColorModality::do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                                      std::size_t index) const {
+                                      std::span<const std::uint32_t> which) const {
   const auto& seen = static_cast<const ColorEvidence&>(*evidence);
   if (seen.state() != ColorEvidence::State::kUsable) return evidence;
-  return seen.without(static_cast<const color::SpanTemplates&>(templates), index);
+  return seen.without(static_cast<const color::SpanTemplates&>(templates), which);
 }
 
 std::optional<LearningPlan> ColorModality::do_plan() const {

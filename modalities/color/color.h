@@ -75,7 +75,7 @@ class ColorModality final : public Modality, private Learner {
                 std::span<const std::uint32_t> which,
                 std::span<double> log_likelihood) const override;
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                         std::size_t index) const override;
+                         std::span<const std::uint32_t> which) const override;
 
   std::optional<LearningPlan> do_plan() const override;
   void do_learn(const FrameSet& frames) override;

@@ -40,13 +40,22 @@ ColorEvidence::ColorEvidence(State state, cv::Mat image, Segmentation segmentati
       background_(std::move(background)),
       blind_(std::move(blind)) {
   if (state_ != State::kUsable) return;
-  counted_ = segmentation_.mask;
+  cv::Mat counted = segmentation_.mask;
   if (!blind_->mask.empty()) {
-    counted_ = segmentation_.mask.clone();
-    counted_.setTo(cv::Scalar(0), blind_->mask);
+    counted = segmentation_.mask.clone();
+    counted.setTo(cv::Scalar(0), blind_->mask);
   }
-  counts_ = RowCounts(counted_);
+  counts_ = std::make_shared<RowCounts>(counted);
 }
+
+ColorEvidence::ColorEvidence(const ColorEvidence& other, std::vector<CountSpan> explained)
+    : state_(other.state_),
+      image_(other.image_),
+      segmentation_(other.segmentation_),
+      background_(other.background_),
+      blind_(other.blind_),
+      counts_(other.counts_),
+      explained_(std::move(explained)) {}
 
 const cv::Mat& ColorEvidence::lab() const {
   std::call_once(lab_once_, [&] { cv::cvtColor(image_, lab_, cv::COLOR_BGR2Lab); });
@@ -74,26 +83,18 @@ std::vector<Picture> ColorEvidence::pictures() const {
 std::optional<double> ColorEvidence::occupancy(const SpanTemplates& templates, std::size_t index,
                                                double least_visible) const {
   if (state_ != State::kUsable) return std::nullopt;
-  return color::occupancy(templates, index, counts_, blind_->counts, least_visible);
+  return color::occupancy(templates, index, {*counts_, blind_->counts, explained_}, least_visible);
 }
 
-std::shared_ptr<const ColorEvidence> ColorEvidence::without(const SpanTemplates& templates,
-                                                            std::size_t index) const {
-  auto rest_blind = std::make_shared<Blind>();
-  rest_blind->mask =
-      blind_->mask.empty() ? cv::Mat(image_.size(), CV_8UC1, cv::Scalar(0)) : blind_->mask.clone();
-  const SpanTemplate& t = templates.at(index);
-  for (std::uint32_t i = t.near; i < t.outer; ++i) {  // with the gap: arms are the person's too
-    const int stride = image_.cols + 1;
-    const CountSpan& s = templates.span(i);
-    const int row = static_cast<int>(s.begin) / stride;
-    const int begin = static_cast<int>(s.begin) % stride;
-    const int length = static_cast<int>(s.end - s.begin);
-    std::fill_n(rest_blind->mask.ptr<uchar>(row) + begin, length, uchar{255});
+std::shared_ptr<const ColorEvidence> ColorEvidence::without(
+    const SpanTemplates& templates, std::span<const std::uint32_t> which) const {
+  std::vector<CountSpan> spans = explained_;
+  for (const std::uint32_t index : which) {
+    const SpanTemplate& t = templates.at(index);
+    const auto near = templates.spans(t.near, t.outer);  // with the gap: arms are the person's too
+    spans.insert(spans.end(), near.begin(), near.end());
   }
-  rest_blind->counts = RowCounts(rest_blind->mask);
-  return std::make_shared<ColorEvidence>(state_, image_, segmentation_, background_,
-                                         std::move(rest_blind));
+  return std::shared_ptr<const ColorEvidence>(new ColorEvidence(*this, united(std::move(spans))));
 }
 
 }  // namespace plaza::color

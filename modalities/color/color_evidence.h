@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <vector>
 
 #include "modalities/color/background.h"
@@ -16,7 +17,7 @@ namespace plaza::color {
 /// which is made when it is first asked for.
 class ColorEvidence final : public Evidence {
  public:
-  /// Pixels that count nowhere: static occluders, later what accepted people explain.
+  /// Pixels that count nowhere: behind static occluders.
   struct Blind {
     cv::Mat mask;  ///< 8-bit, 0 or 255; empty: no pixel
     RowCounts counts;
@@ -43,19 +44,21 @@ class ColorEvidence final : public Evidence {
   /// See plaza::color::occupancy(); nothing when the evidence isn't usable either.
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                   double least_visible) const;
-  /// The evidence without the foreground inside a template and its gap, whose pixels count
-  /// nowhere from then on.
+  /// The evidence without the foreground inside templates and their gaps, whose pixels count
+  /// nowhere from then on. Copies no pixel.
   std::shared_ptr<const ColorEvidence> without(const SpanTemplates& templates,
-                                               std::size_t index) const;
+                                               std::span<const std::uint32_t> which) const;
 
  private:
+  ColorEvidence(const ColorEvidence& other, std::vector<CountSpan> explained);
+
   State state_;
   cv::Mat image_;
   Segmentation segmentation_;
   std::shared_ptr<const Background> background_;
   std::shared_ptr<const Blind> blind_;
-  cv::Mat counted_;  ///< foreground that counts
-  RowCounts counts_;
+  std::shared_ptr<const RowCounts> counts_;  ///< of foreground, without what is blind
+  std::vector<CountSpan> explained_;         ///< see united()
   mutable std::once_flag lab_once_;
   mutable cv::Mat lab_;
 };

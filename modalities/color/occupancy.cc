@@ -13,6 +13,35 @@ std::uint32_t area(const std::vector<RowSpan>& spans) {
   return sum;
 }
 
+struct Sums {
+  std::uint32_t set = 0;     ///< foreground that counts
+  std::uint32_t hidden = 0;  ///< pixels that don't count
+};
+
+Sums sums(std::span<const CountSpan> spans, const Countable& seen) {
+  Sums sum;
+  if (spans.empty()) return sum;
+  const auto between = [](const RowCounts& counts, std::uint32_t begin, std::uint32_t end) {
+    return static_cast<std::uint32_t>(counts[end] - counts[begin]);
+  };
+  const bool blind = !seen.blind.empty();
+  auto next = std::upper_bound(
+      seen.explained.begin(), seen.explained.end(), spans.front().begin,
+      [](std::uint32_t begin, const CountSpan& e) { return begin < e.end; });
+  for (const CountSpan& s : spans) {
+    sum.set += between(seen.foreground, s.begin, s.end);
+    if (blind) sum.hidden += between(seen.blind, s.begin, s.end);
+    while (next != seen.explained.end() && next->end <= s.begin) ++next;
+    for (auto e = next; e != seen.explained.end() && e->begin < s.end; ++e) {
+      const std::uint32_t begin = std::max(e->begin, s.begin), end = std::min(e->end, s.end);
+      sum.set -= between(seen.foreground, begin, end);
+      sum.hidden += end - begin;
+      if (blind) sum.hidden -= between(seen.blind, begin, end);
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 RowCounts::RowCounts(const cv::Mat& mask) {
@@ -93,31 +122,32 @@ void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
   templates_.push_back(t);
 }
 
-std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
-                                const RowCounts& foreground, const RowCounts& explained,
-                                double least_visible) {
-  const SpanTemplate& t = templates.at(index);
-  const auto count = [&](const RowCounts& counts, std::uint32_t begin, std::uint32_t end) {
-    std::uint32_t sum = 0;
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const CountSpan& s = templates.span(i);
-      sum += static_cast<std::uint32_t>(counts[s.end] - counts[s.begin]);
+std::vector<CountSpan> united(std::vector<CountSpan> spans) {
+  std::sort(spans.begin(), spans.end(),
+            [](const CountSpan& a, const CountSpan& b) { return a.begin < b.begin; });
+  std::vector<CountSpan> out;
+  for (const CountSpan& s : spans) {
+    if (!out.empty() && s.begin <= out.back().end) {
+      out.back().end = std::max(out.back().end, s.end);
+    } else {
+      out.push_back(s);
     }
-    return sum;
-  };
-  std::uint32_t inside = t.inner_area;
-  std::uint32_t ring = t.outer_area - t.near_area;
-  if (!explained.empty()) {
-    inside -= count(explained, t.inner, t.near);
-    ring -= count(explained, t.outer, t.end) - count(explained, t.near, t.outer);
   }
+  return out;
+}
+
+std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
+                                const Countable& seen, double least_visible) {
+  const SpanTemplate& t = templates.at(index);
+  const Sums in = sums(templates.spans(t.inner, t.near), seen);
+  const std::uint32_t inside = t.inner_area - in.hidden;
   if (inside == 0 || inside < least_visible * static_cast<double>(t.full_area)) return std::nullopt;
-  const std::uint32_t set_inside = count(foreground, t.inner, t.near);
-  const double share = static_cast<double>(set_inside) / inside;
+  const Sums near = sums(templates.spans(t.near, t.outer), seen);
+  const Sums outer = sums(templates.spans(t.outer, t.end), seen);
+  const double share = static_cast<double>(in.set) / inside;
+  const std::uint32_t ring = t.outer_area - t.near_area - (outer.hidden - near.hidden);
   if (ring == 0) return share;
-  const std::uint32_t set_ring =
-      count(foreground, t.outer, t.end) - count(foreground, t.near, t.outer);
-  return share - static_cast<double>(set_ring) / ring;
+  return share - static_cast<double>(outer.set - near.set) / ring;
 }
 
 }  // namespace plaza::color

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "plaza/component/modality.h"
@@ -66,6 +67,9 @@ class SpanTemplates final : public TemplateBatch {
   cv::Size image() const { return image_; }
   const SpanTemplate& at(std::size_t i) const { return templates_.at(i); }
   const CountSpan& span(std::uint32_t i) const { return spans_[i]; }
+  std::span<const CountSpan> spans(std::uint32_t begin, std::uint32_t end) const {
+    return std::span(spans_).subspan(begin, end - begin);
+  }
 
  private:
   std::uint32_t append(const std::vector<RowSpan>& spans);
@@ -79,12 +83,20 @@ class SpanTemplates final : public TemplateBatch {
 /// the image, without overlaps, by rising row.
 std::vector<RowSpan> dilated(const std::vector<RowSpan>& spans, int radius, cv::Size image);
 
-/// Share of foreground inside the silhouette minus its share in the ring, in [-1, 1]; pixels that
-/// are set in `explained` count nowhere (empty: none are). Nothing when less than `least_visible`
-/// of the silhouette is left to look at, parts outside the image counted as not visible. A ring
-/// without a pixel to look at counts as free of foreground.
+/// Spans as one list, by rising index and without overlaps.
+std::vector<CountSpan> united(std::vector<CountSpan> spans);
+
+/// What is counted in silhouettes.
+struct Countable {
+  const RowCounts& foreground;           ///< without what is blind
+  const RowCounts& blind;                ///< pixels that count nowhere; empty: none
+  std::span<const CountSpan> explained;  ///< neither do these; see united()
+};
+
+/// Share of foreground inside the silhouette minus its share in the ring, in [-1, 1]. Nothing when
+/// less than `least_visible` of the silhouette is left to look at, parts outside the image counted
+/// as not visible. A ring without a pixel to look at counts as free of foreground.
 std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
-                                const RowCounts& foreground, const RowCounts& explained,
-                                double least_visible);
+                                const Countable& seen, double least_visible);
 
 }  // namespace plaza::color

@@ -1,6 +1,7 @@
 #include "modalities/edges/edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -127,10 +128,12 @@ Declaration<Edges::Options> Edges::declare() {
   p.value("min_points", &Options::min_points)
       .at_least(1)
       .meaning("least number of contour points inside the image; with fewer the view can't tell");
-  p.choice("explains", &Options::explains, {"contour", "silhouette"})
+  p.choice("explains", &Options::explains, {"contour", "silhouette", "region"})
       .meaning(
-          "which edges an accepted person accounts for: those within the gate of its contour, "
-          "along the normals, or those inside the silhouette as well");
+          "what an accepted person accounts for: edges within the gate of its contour, along the "
+          "normals (contour), and those inside (silhouette), after which the rest is transformed "
+          "anew; or, much faster, no edge, but what other contours have inside the silhouette "
+          "and within the gate around it counts nowhere, neither for nor against them (region)");
   return Declaration<Options>(
              "edges", "Foreground edges against silhouettes, by an oriented distance transform.")
       .source("thesis 4.3.2-4.3.5, (4.1)-(4.3), Algorithm 1")
@@ -152,7 +155,7 @@ Edges::Edges(const Options& options, const BuildContext& context)
                     .link_end_points = options.link_end_points},
       template_options_{.min_visible = options.min_visible,
                         .min_points = options.min_points,
-                        .spans = options.explains == Explains::kSilhouette} {
+                        .spans = options.explains != Explains::kContour} {
   if (options.low_threshold > options.high_threshold) {
     Diagnostic fault;
     fault.pointer = "/low_threshold";
@@ -237,17 +240,32 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
   const ContourMatcher& matcher = *view_of(edges).matcher;
   const std::uint8_t* planes = edges.block().planes.data();
   for (std::size_t i = 0; i < which.size(); ++i) {
-    log_likelihood[i] = edges.blank() || !contours.tells(which[i])
-                            ? std::numeric_limits<double>::quiet_NaN()
-                            : matcher.log_likelihood(planes, contours, which[i]);
+    log_likelihood[i] = std::numeric_limits<double>::quiet_NaN();
+    if (edges.blank() || !contours.tells(which[i])) continue;
+    if (edges.hidden() == nullptr) {
+      log_likelihood[i] = matcher.log_likelihood(planes, contours, which[i]);
+    } else if (const auto found =
+                   matcher.log_likelihood(planes, *edges.hidden(), contours, which[i],
+                                          options_.min_visible, options_.min_points)) {
+      log_likelihood[i] = *found;
+    }
   }
 }
 
 EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                              std::size_t index) const {
+                              std::span<const std::uint32_t> which) const {
   const EdgeEvidence& before = edges_of(*evidence);
   const EdgeTemplates& contours = contours_of(templates, before);
   const View& view = view_of(before);
+  if (options_.explains == Explains::kRegion) {
+    auto hidden = before.hidden() != nullptr ? std::make_shared<HiddenRegion>(*before.hidden())
+                                             : std::make_shared<HiddenRegion>(*view.layout);
+    for (const std::uint32_t index : which) {
+      hidden->add(contours.spans(index),
+                  static_cast<int>(std::ceil(kGateSigmas * options_.sigma_px)));
+    }
+    return std::make_shared<const EdgeEvidence>(before, std::move(hidden));
+  }
   const cv::Rect inside({}, view.layout->size());
 
   auto block = take_block(view);
@@ -258,22 +276,25 @@ EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& 
     if ((label & kForeground) != 0)
       label = static_cast<std::uint8_t>((label & ~kForeground) | kExplained);
   };
-  const std::uint32_t* point = contours.points(index).data();
-  for (std::size_t d = 0; d < contours.runs(index).size(); ++d) {
-    const Direction& direction = view.layout->directions()[d];
-    for (std::uint32_t i = 0; i < contours.runs(index)[d]; ++i, ++point) {
-      const cv::Point p = view.layout->pixel(d, *point);
-      const int major = direction.steep ? p.y : p.x, minor = direction.steep ? p.x : p.y;
-      for (int k = -direction.gate; k <= direction.gate; ++k) {
-        const int other = minor - direction.shift(major) + direction.shift(major + k);
-        const cv::Point q =
-            direction.steep ? cv::Point(other, major + k) : cv::Point(major + k, other);
-        if (inside.contains(q)) take_away(q.x, q.y);
+  const auto take_away_normal = [&](const Direction& direction, cv::Point p) {
+    const int major = direction.steep ? p.y : p.x, minor = direction.steep ? p.x : p.y;
+    for (int k = -direction.gate; k <= direction.gate; ++k) {
+      const int other = minor - direction.shift(major) + direction.shift(major + k);
+      const cv::Point q =
+          direction.steep ? cv::Point(other, major + k) : cv::Point(major + k, other);
+      if (inside.contains(q)) take_away(q.x, q.y);
+    }
+  };
+  for (const std::uint32_t index : which) {
+    const std::uint32_t* point = contours.points(index).data();
+    for (std::size_t d = 0; d < contours.runs(index).size(); ++d) {
+      for (std::uint32_t i = 0; i < contours.runs(index)[d]; ++i, ++point) {
+        take_away_normal(view.layout->directions()[d], view.layout->pixel(d, *point));
       }
     }
-  }
-  for (const RowSpan& span : contours.spans(index)) {
-    for (int x = span.begin; x < span.end; ++x) take_away(x, span.row);
+    for (const RowSpan& span : contours.spans(index)) {
+      for (int x = span.begin; x < span.end; ++x) take_away(x, span.row);
+    }
   }
   block->points.clear();
   for (const EdgePoint p : before.block().points) {

@@ -15,6 +15,7 @@ namespace plaza::edges {
 enum class Explains {
   kContour,     ///< edges within the gate of a contour point, along its normal
   kSilhouette,  ///< and all edges inside the silhouette
+  kRegion,      ///< no edge, but what others' contours have inside the silhouette counts nowhere
 };
 
 /// Silhouettes compared with foreground edges through an oriented distance transform (thesis
@@ -64,7 +65,7 @@ class Edges final : public Modality {
                 std::span<const std::uint32_t> which,
                 std::span<double> log_likelihood) const override;
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                         std::size_t index) const override;
+                         std::span<const std::uint32_t> which) const override;
 
   Pool<EvidenceBlock>::Handle take_block(const View& view) const;
   const View& view_of(const EdgeEvidence& evidence) const;

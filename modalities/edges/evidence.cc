@@ -97,7 +97,15 @@ cv::Mat transform_of(const ByteBlock& planes, const PlaneLayout& layout) {
 
 std::vector<Picture> EdgeEvidence::pictures() const {
   std::vector<Picture> pictures;
-  const LabelImage& labels = block_->labels;
+  LabelImage labels(block_->labels.size());
+  labels.copy(block_->labels);
+  if (hidden_ != nullptr) {
+    for (const EdgePoint p : block_->points) {
+      if (!hidden_->at(p.x, p.y)) continue;
+      std::uint8_t& label = labels.at(p.x, p.y);
+      label = static_cast<std::uint8_t>((label & ~kForeground) | kExplained);
+    }
+  }
   if (background_ != nullptr && background_->known) {
     cv::Mat image;
     cv::cvtColor(background_->edges, image, cv::COLOR_GRAY2BGR);

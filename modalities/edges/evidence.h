@@ -5,6 +5,7 @@
 
 #include "modalities/edges/background.h"
 #include "modalities/edges/fast_transform.h"
+#include "modalities/edges/hidden_region.h"
 #include "modalities/edges/pool.h"
 #include "modalities/edges/segmentation.h"
 #include "plaza/data/evidence.h"
@@ -33,18 +34,28 @@ class EdgeEvidence final : public Evidence {
         block_(std::move(block)),
         blank_(blank) {}
 
+  /// The same edges, a part of which counts nowhere.
+  EdgeEvidence(const EdgeEvidence& other, std::shared_ptr<const HiddenRegion> hidden)
+      : EdgeEvidence(other) {
+    hidden_ = std::move(hidden);
+  }
+
   /// "background-edges", "all-edges", "segmented-edges", "linked-edges", "directions", "transform".
   std::vector<Picture> pictures() const override;
 
   const std::shared_ptr<const PlaneLayout>& layout() const { return layout_; }
   const std::shared_ptr<const ViewBackground>& background() const { return background_; }
   const EvidenceBlock& block() const { return *block_; }
+  const HiddenRegion* hidden() const { return hidden_.get(); }  ///< null: all counts
   bool blank() const { return blank_; }
 
  private:
+  EdgeEvidence(const EdgeEvidence&) = default;
+
   std::shared_ptr<const PlaneLayout> layout_;
   std::shared_ptr<const ViewBackground> background_;
-  Pool<EvidenceBlock>::Handle block_;
+  std::shared_ptr<const EvidenceBlock> block_;
+  std::shared_ptr<const HiddenRegion> hidden_;
   bool blank_;
 };
 

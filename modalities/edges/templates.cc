@@ -85,4 +85,38 @@ double ContourMatcher::log_likelihood(const std::uint8_t* block, const EdgeTempl
   return -sum_px2 / (2 * static_cast<double>(points.size()) * sigma_px_ * sigma_px_);
 }
 
+std::optional<double> ContourMatcher::log_likelihood(const std::uint8_t* block,
+                                                     const HiddenRegion& hidden,
+                                                     const EdgeTemplates& templates,
+                                                     std::size_t index, double least_share,
+                                                     int least_points) const {
+  const std::span<const std::uint32_t> points = templates.points(index);
+  const std::span<const std::uint32_t> runs = templates.runs(index);
+  const std::uint32_t* p = points.data();
+  double sum_px2 = 0;
+  std::uint64_t outliers = 0;
+  std::size_t seen = 0;
+  for (std::size_t d = 0; d < runs.size(); ++d) {
+    const Direction& direction = layout_->directions()[d];
+    const std::uint64_t* square = tables_[table_index_[d]].of;
+    const std::uint8_t* hides = hidden.plane(direction.steep);
+    const std::uint32_t plane_begin = layout_->plane_begin(d);
+    std::uint64_t squares = 0;
+    for (std::size_t i = 0; i < runs[d]; ++i, ++p) {
+      if (hides[*p - plane_begin] != 0) continue;
+      const std::uint64_t found = square[block[*p]];
+      squares += found & 0xFFFFFFFF;
+      outliers += found >> 32;
+      ++seen;
+    }
+    sum_px2 += static_cast<double>(squares) * direction.step_px * direction.step_px;
+  }
+  if (seen < static_cast<std::size_t>(least_points) ||
+      static_cast<double>(seen) < least_share * static_cast<double>(points.size())) {
+    return std::nullopt;
+  }
+  sum_px2 += static_cast<double>(outliers) * gate_px_ * gate_px_;
+  return -sum_px2 / (2 * static_cast<double>(seen) * sigma_px_ * sigma_px_);
+}
+
 }  // namespace plaza::edges

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "modalities/edges/fast_transform.h"
+#include "modalities/edges/hidden_region.h"
 #include "plaza/component/modality.h"
 #include "plaza/component/models.h"
 
@@ -68,6 +70,11 @@ class ContourMatcher {
   /// The template must tell something.
   double log_likelihood(const std::uint8_t* block, const EdgeTemplates& templates,
                         std::size_t index) const;
+  /// By the points that aren't hidden; nothing when they are less than `least_share` of all, or
+  /// fewer than `least_points`.
+  std::optional<double> log_likelihood(const std::uint8_t* block, const HiddenRegion& hidden,
+                                       const EdgeTemplates& templates, std::size_t index,
+                                       double least_share, int least_points) const;
 
  private:
   struct Table {

@@ -110,7 +110,7 @@ class QuietModality : public Modality {
                 std::span<const std::uint32_t> /*which*/,
                 std::span<double> /*log_likelihood*/) const override {}
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& /*templates*/,
-                         std::size_t /*index*/) const override {
+                         std::span<const std::uint32_t> /*which*/) const override {
     return evidence;
   }
 };

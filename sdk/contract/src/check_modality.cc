@@ -107,7 +107,15 @@ class ModalityCheck {
                    [&] { modality_->match(*prepared.evidence, *none, {}); });
 
     const auto batch = modality_->sample(shape_, poses_, camera);
-    for (const std::size_t i : {std::size_t{9}, poses_.size() - 1}) {
+    const auto last = static_cast<std::uint32_t>(poses_.size() - 1);
+    const std::uint32_t two[] = {9, 0};
+    const EvidencePtr together = modality_->explain(prepared.evidence, *batch, two);
+    const EvidencePtr in_turn =
+        modality_->explain(modality_->explain(prepared.evidence, *batch, two[0]), *batch, two[1]);
+    findings_.require(
+        same(matched(*modality_, *together, camera), matched(*modality_, *in_turn, camera)),
+        "explain() of two templates is not explain() of one after the other");
+    for (const std::uint32_t i : {std::uint32_t{9}, last}) {
       const EvidencePtr rest = modality_->explain(prepared.evidence, *batch, i);
       findings_.require(same(reference, matched(*modality_, *prepared.evidence, camera)),
                         "explain() changes the evidence that it was given");

@@ -179,9 +179,12 @@ void Modality::match(const Evidence& evidence, const TemplateBatch& templates,
   do_match(evidence, templates, which, log_likelihood);
 }
 EvidencePtr Modality::explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                              std::size_t index) const {
-  if (index >= templates.size()) throw std::out_of_range("template index");
-  EvidencePtr rest = do_explain(evidence, templates, index);
+                              std::span<const std::uint32_t> which) const {
+  for (const std::uint32_t index : which) {
+    if (index >= templates.size()) throw std::out_of_range("template index");
+  }
+  if (which.empty()) return evidence;
+  EvidencePtr rest = do_explain(evidence, templates, which);
   if (!rest) throw InternalError("explain() returned no evidence");
   return rest;
 }

@@ -80,12 +80,14 @@ class Brightness final : public Modality {
     }
   }
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                         std::size_t index) const override {
+                         std::span<const std::uint32_t> which) const override {
     const auto& grey = static_cast<const Grey&>(*evidence);
     auto rest = std::make_shared<Grey>();
     rest->image = fault_ == "explain-in-place" ? grey.image : grey.image.clone();
-    const cv::Rect box = static_cast<const Boxes&>(templates).boxes[index];
-    rest->image(box).setTo(cv::Scalar::all(fault_ == "explain-more" ? 255 : 0));
+    for (const std::uint32_t index : fault_ == "explain-one" ? which.first(1) : which) {
+      const cv::Rect box = static_cast<const Boxes&>(templates).boxes[index];
+      rest->image(box).setTo(cv::Scalar::all(fault_ == "explain-more" ? 255 : 0));
+    }
     return rest;
   }
 
@@ -103,6 +105,7 @@ TEST(ModalityContractTest, EachBrokenPromiseIsCaught) {
       {"subset", "match() of some templates gives other values than match() of all"},
       {"explain-in-place", "explain() changes the evidence that it was given"},
       {"explain-more", "a template is more likely after its evidence was explained"},
+      {"explain-one", "explain() of two templates is not explain() of one after the other"},
       {"remembers",
        "the node's foreground is not that of prepare() with the mask of the frame before"},
       {"scribbles", "prepare() writes to the image"},

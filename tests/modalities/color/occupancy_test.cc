@@ -48,14 +48,14 @@ Silhouette random_silhouette(std::mt19937& random) {
 }
 
 std::optional<double> brute_force(const Silhouette& s, int gap, int radius,
-                                  const cv::Mat& foreground, const cv::Mat& explained,
+                                  const cv::Mat& foreground, const cv::Mat& hidden,
                                   double least_visible) {
   const cv::Mat inside = painted(s.spans);
   double in = 0, in_set = 0, ring = 0, ring_set = 0, full = 0;
   for (int y = 0; y < kImage.height; ++y) {
     for (int x = 0; x < kImage.width; ++x) {
       full += inside.at<uchar>(y, x) != 0;
-      if (explained.at<uchar>(y, x) != 0) continue;
+      if (hidden.at<uchar>(y, x) != 0) continue;
       bool near = false, in_gap = false;
       for (int v = std::max(y - radius, 0); v <= std::min(y + radius, kImage.height - 1); ++v) {
         for (int u = std::max(x - radius, 0); u <= std::min(x + radius, kImage.width - 1); ++u) {
@@ -90,13 +90,23 @@ TEST(OccupancyTest, EqualsCountingPixelByPixel) {
     SpanTemplates templates(kImage);
     templates.add(random_silhouette(random), ring);
     templates.add(s, ring);
-    const cv::Mat explained = random_mask(i + 1000, i % 3 == 0 ? 0 : 60);
+    const cv::Mat blind = random_mask(i + 1000, i % 3 == 0 ? 0 : 60);
     cv::Mat foreground = random_mask(i, 40);
-    foreground.setTo(cv::Scalar(0), explained);
-    const auto expected = brute_force(s, gap, radius, foreground, explained, 0.4);
-    const auto actual =
-        occupancy(templates, 1, RowCounts(foreground),
-                  cv::countNonZero(explained) == 0 ? RowCounts() : RowCounts(explained), 0.4);
+    foreground.setTo(cv::Scalar(0), blind);
+    std::vector<CountSpan> explained;
+    cv::Mat hidden = blind.clone();
+    for (std::uint32_t people = 0; people < i % 4; ++people) {
+      const Silhouette other = random_silhouette(random);
+      cv::bitwise_or(hidden, painted(other.spans), hidden);
+      for (const RowSpan& span : other.spans) {
+        explained.push_back({RowCounts::index(span.row, span.begin, kImage.width),
+                             RowCounts::index(span.row, span.end, kImage.width)});
+      }
+    }
+    const auto expected = brute_force(s, gap, radius, foreground, hidden, 0.4);
+    const RowCounts blind_counts = cv::countNonZero(blind) == 0 ? RowCounts() : RowCounts(blind);
+    const auto actual = occupancy(
+        templates, 1, {RowCounts(foreground), blind_counts, united(std::move(explained))}, 0.4);
     ASSERT_EQ(actual.has_value(), expected.has_value()) << i;
     if (actual) {
       EXPECT_NEAR(*actual, *expected, 1e-12) << i;
@@ -115,10 +125,11 @@ TEST(OccupancyTest, PartsOutsideTheImageAreNotVisible) {
   SpanTemplates templates(kImage);
   templates.add(s, {0, 0.1});
   templates.add(Silhouette(), {0, 0.1});  // not visible at all
-  const RowCounts counts(cv::Mat(kImage, CV_8UC1, cv::Scalar(255)));
-  EXPECT_DOUBLE_EQ(occupancy(templates, 0, counts, {}, 0.3).value(), 0);
-  EXPECT_FALSE(occupancy(templates, 0, counts, {}, 0.5).has_value());
-  EXPECT_FALSE(occupancy(templates, 1, counts, {}, 0).has_value());
+  const RowCounts counts(cv::Mat(kImage, CV_8UC1, cv::Scalar(255))), none;
+  const Countable all{counts, none, {}};
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, all, 0.3).value(), 0);
+  EXPECT_FALSE(occupancy(templates, 0, all, 0.5).has_value());
+  EXPECT_FALSE(occupancy(templates, 1, all, 0).has_value());
 }
 
 TEST(OccupancyTest, DilatesAsASquareBrush) {
@@ -152,8 +163,8 @@ TEST(OccupancyTest, FilledInEmptySurroundingsIsOneAndTheOtherWayRoundMinusOne) {
   templates.add(s, {0, 0.2});
   const cv::Mat inside = painted(s.spans);
   const cv::Mat outside = 255 - inside;
-  EXPECT_DOUBLE_EQ(occupancy(templates, 0, RowCounts(inside), {}, 0).value(), 1);
-  EXPECT_DOUBLE_EQ(occupancy(templates, 0, RowCounts(outside), {}, 0).value(), -1);
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, {RowCounts(inside), RowCounts(), {}}, 0).value(), 1);
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, {RowCounts(outside), RowCounts(), {}}, 0).value(), -1);
 }
 
 }  // namespace

@@ -178,6 +178,75 @@ TEST(Edges, AnExplainedPersonIsGoneAndOthersStay) {
   }
 }
 
+TEST(Edges, AnExplainedRegionSpeaksNeitherForNorAgainst) {
+  const auto scene = scene_of({320, 240});
+  Edges::Options options = without_background();
+  options.explains = Explains::kRegion;
+  const Edges edges(options, context_of(scene));
+  // two side by side, the second half behind the first, and a third who has nothing
+  const std::vector<Pose> poses = {{{0, 0}, 0, 1}, {{0.12, 0}, 0, 1}, {{1.5, 0}, 0, 1}};
+  const std::vector<Pose> people(poses.begin(), poses.begin() + 1);
+  const auto prepared = edges.prepare(image_of(*scene, people), 0);
+  const auto before = matched(edges, *prepared.evidence, poses);
+  const auto batch = edges.sample(UprightBox(), poses, 0);
+  const auto rest = edges.explain(prepared.evidence, *batch, 0);
+  const auto after = matched(edges, *rest, poses);
+  EXPECT_GT(before[0], -0.3);
+  EXPECT_TRUE(std::isnan(after[0])) << after[0] << ": nothing of it is left to look at";
+  EXPECT_TRUE(std::isnan(after[1]) || after[1] < before[1] - 1) << after[1];
+  EXPECT_EQ(after[2], before[2]);
+  EXPECT_EQ(matched(edges, *prepared.evidence, poses), before) << "the input stays";
+  bool grey = false;
+  for (const Picture& picture : rest->pictures()) {
+    if (picture.name != "linked-edges") continue;
+    const cv::Mat3b image = picture.image;
+    grey = std::any_of(image.begin(), image.end(),
+                       [](const cv::Vec3b& p) { return p == cv::Vec3b(90, 90, 90); });
+  }
+  EXPECT_TRUE(grey) << "the picture shows what is explained";
+}
+
+TEST(ContourMatcher, CountsWhatIsNotHidden) {
+  const cv::Size size(60, 50);
+  const auto layout = std::make_shared<const PlaneLayout>(size, make_directions(6, 6));
+  const ContourMatcher matcher(layout, 2, 6);
+  FastTransform transform(layout);
+  ByteBlock block(layout->bytes());
+  const EdgePoint edge[] = {{30, 20}, {31, 20}, {12, 40}};
+  transform.run(edge, block);
+  // a contour of points in all directions, and the same without those that are hidden
+  Silhouette whole, part;
+  whole.inside_share = part.inside_share = 1;
+  std::vector<RowSpan> region;
+  for (int row = 5; row < 45; row += 2) region.push_back({row, 8, 8 + row});
+  HiddenRegion hidden(*layout);
+  hidden.add(region, 2);
+  int hidden_points = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int x = 7 * i % size.width, y = 11 * i % size.height;
+    const float turn = 0.1F * static_cast<float>(i);
+    const ContourPoint p{{static_cast<float>(x), static_cast<float>(y)},
+                         {std::cos(turn), std::sin(turn)}};
+    whole.contour.push_back(p);
+    const bool hides = std::any_of(region.begin(), region.end(), [&](const RowSpan& s) {
+      const int up = std::abs(s.row - y);
+      return (up == 0 || up == 2) && s.begin - 2 <= x && x < s.end + 2;
+    });
+    EXPECT_EQ(hidden.at(x, y), hides);
+    hidden_points += hides ? 1 : 0;
+    if (!hides) part.contour.push_back(p);
+  }
+  ASSERT_GT(hidden_points, 30);
+  EdgeTemplates templates(layout);
+  templates.add(whole, {});
+  templates.add(part, {});
+  const auto found = matcher.log_likelihood(block.data(), hidden, templates, 0, 0.3, 20);
+  ASSERT_TRUE(found);
+  EXPECT_DOUBLE_EQ(*found, matcher.log_likelihood(block.data(), templates, 1));
+  EXPECT_FALSE(matcher.log_likelihood(block.data(), hidden, templates, 0, 0.99, 20));
+  EXPECT_FALSE(matcher.log_likelihood(block.data(), hidden, templates, 0, 0.3, 1000));
+}
+
 TEST(Edges, ExplainingTheSilhouetteTakesItsTextureToo) {
   const auto scene = scene_of({320, 240});
   const std::vector<Pose> person = {{{0, 0}, 0, 1}};

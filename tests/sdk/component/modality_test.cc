@@ -32,7 +32,7 @@ class Recorder final : public Modality {
   void do_match(const Evidence&, const TemplateBatch&, std::span<const std::uint32_t>,
                 std::span<double>) const override {}
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch&,
-                         std::size_t) const override {
+                         std::span<const std::uint32_t>) const override {
     return evidence;
   }
 };

@@ -55,9 +55,14 @@ class PLAZA_API Modality : public Node {
   /// the batch.
   void match(const Evidence& evidence, const TemplateBatch& templates,
              std::span<const std::uint32_t> which, std::span<double> log_likelihood) const;
-  /// The evidence without what template `index` accounts for; the input stays as it is.
+  /// The evidence without what these templates account for together; the input stays as it is. What
+  /// was accounted for before stays so. Throws std::out_of_range for an index beyond the batch.
   EvidencePtr explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                      std::size_t index) const;
+                      std::span<const std::uint32_t> which) const;
+  EvidencePtr explain(const EvidencePtr& evidence, const TemplateBatch& templates,
+                      std::uint32_t index) const {
+    return explain(evidence, templates, std::span(&index, 1));
+  }
 
  protected:
   explicit Modality(const BuildContext& context)
@@ -73,7 +78,7 @@ class PLAZA_API Modality : public Node {
                         std::span<const std::uint32_t> which,
                         std::span<double> log_likelihood) const = 0;
   virtual EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
-                                 std::size_t index) const = 0;
+                                 std::span<const std::uint32_t> which) const = 0;
 
  private:
   void do_process(NodeIo& io) final;
