@@ -5,12 +5,14 @@
 #include <limits>
 
 #include "plaza/core/parallel.h"
+#include "plugins/detectors/hierarchical-grid/silhouette_codec.h"
 
 namespace plaza {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
+constexpr double kReach = 0.25;  ///< of a box's height: how far evidence of a person may reach
 constexpr std::size_t kTemplatesPerTask = 256;  ///< templates that one task matches
 
 /// Median of the numbers that are known; NaN without any.
@@ -47,33 +49,48 @@ GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy
                        const ShapeModel& model, std::vector<Witness> witnesses, std::size_t cameras,
                        double refine_above, int spread)
     : grid_(&grid),
+      hierarchy_(&hierarchy),
       witnesses_(std::move(witnesses)),
       cameras_(cameras),
       refine_above_(refine_above),
       spread_(spread) {
-  for (std::size_t level = 0; level < grid.levels(); ++level) {
+  reach_.assign(cameras, std::vector<Box>(grid.size(grid.levels() - 1)));
+  for (std::size_t layer = 0; layer < hierarchy.layers().size(); ++layer) {
+    const auto [level, scale] = hierarchy.layers()[layer];
     auto& batches = batches_.emplace_back(witnesses_.size() * cameras);
     auto& templates = template_of_cell_.emplace_back(cameras);
-    std::vector<char> seen(grid.size(level), 0);
-    parallel_for(cameras, [&](std::size_t camera) {
-      const LevelTemplates& stored = hierarchy.templates(camera, level);
+    parallel_for(cameras, [&, level = level, scale = scale](std::size_t camera) {
+      const LevelTemplates& stored = hierarchy.templates(camera, layer);
       templates[camera].assign(grid.size(level), kUnseen);
       std::vector<Pose> poses;
       for (const CellIndex cell : stored.cells) {
         templates[camera][cell] = static_cast<std::uint32_t>(poses.size());
-        poses.push_back({grid.position(level, cell), 0, 1});
+        poses.push_back({grid.position(level, cell), 0, scale});
       }
-      const StoredShape shape(model, grid, level, stored);
+      const StoredShape shape(model, grid, {level, scale}, stored);
       for (std::size_t w = 0; w < witnesses_.size(); ++w) {
         batches[w * cameras + camera] = witnesses_[w].modality->sample(shape, poses, camera);
       }
     });
+  }
+  for (std::size_t level = 0; level < grid.levels(); ++level) {
+    std::vector<char> seen(grid.size(level), 0);
     for (std::size_t camera = 0; camera < cameras; ++camera) {
       for (const CellIndex cell : hierarchy.templates(camera, level).cells) seen[cell] = 1;
     }
     auto& cells = seen_cells_.emplace_back();
     for (std::size_t cell = 0; cell < seen.size(); ++cell) {
       if (seen[cell] != 0) cells.push_back(static_cast<CellIndex>(cell));
+    }
+  }
+  for (std::size_t camera = 0; camera < cameras; ++camera) {
+    const LevelTemplates& stored = hierarchy.templates(camera, grid.levels() - 1);
+    for (std::size_t i = 0; i < stored.cells.size(); ++i) {
+      std::size_t offset = stored.offsets[i];
+      const Box box = decode(stored.bytes, offset).box;
+      const double margin = kReach * box.height;
+      reach_[camera][stored.cells[i]] = {box.left - margin, box.top - margin,
+                                         box.width + 2 * margin, box.height + 2 * margin};
     }
   }
 }
@@ -106,9 +123,8 @@ std::vector<CellIndex> GridSearch::wanted_cells(std::size_t level,
   return wanted;
 }
 
-void GridSearch::evaluate(std::size_t level, std::span<const CellIndex> wanted,
-                          std::span<const std::vector<EvidencePtr>> evidence,
-                          std::vector<Values>& values) const {
+void GridSearch::evaluate(std::size_t layer, std::span<const CellIndex> wanted,
+                          const AllEvidence& evidence, std::vector<Values>& values) const {
   struct Task {
     std::size_t pair = 0;
     std::size_t begin = 0, end = 0;  ///< of the camera's lists below
@@ -118,7 +134,7 @@ void GridSearch::evaluate(std::size_t level, std::span<const CellIndex> wanted,
   std::vector<Task> tasks;
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
     for (const CellIndex cell : wanted) {
-      const std::uint32_t index = template_of_cell_[level][camera][cell];
+      const std::uint32_t index = template_of_cell_[layer][camera][cell];
       if (index == kUnseen) continue;
       which[camera].push_back(index);
       cells[camera].push_back(cell);
@@ -136,7 +152,7 @@ void GridSearch::evaluate(std::size_t level, std::span<const CellIndex> wanted,
     const std::size_t w = task.pair / cameras_, camera = task.pair % cameras_;
     std::vector<double> found(task.end - task.begin);
     witnesses_[w].modality->match(
-        *evidence[w][camera], *batches_[level][task.pair],
+        *evidence[w][camera], *batches_[layer][task.pair],
         std::span(which[camera]).subspan(task.begin, task.end - task.begin), found);
     for (std::size_t i = 0; i < found.size(); ++i) {
       values[task.pair][cells[camera][task.begin + i]] = found[i];
@@ -144,7 +160,7 @@ void GridSearch::evaluate(std::size_t level, std::span<const CellIndex> wanted,
   });
 }
 
-SearchResult GridSearch::search(std::span<const std::vector<EvidencePtr>> evidence) const {
+SearchResult GridSearch::search(const AllEvidence& evidence) const {
   SearchResult result;
   result.exhaustive = seen_cells_.back().size();
   const std::size_t pairs = witnesses_.size() * cameras_;
@@ -172,29 +188,82 @@ SearchResult GridSearch::search(std::span<const std::vector<EvidencePtr>> eviden
       }
     }
     for (const CellIndex cell : wanted) {
-      double sum = 0;
-      int told = 0;
-      for (std::size_t camera = 0; camera < cameras_; ++camera) {
-        double view = 0;
-        bool view_told = false;
-        for (std::size_t w = 0; w < witnesses_.size(); ++w) {
-          const std::size_t pair = w * cameras_ + camera;
-          if (!std::isfinite(values[pair][cell])) continue;
-          view += witnesses_[w].weight * (values[pair][cell] - baselines[pair]);
-          view_told = true;
-        }
-        if (!view_told) continue;
-        here.views[camera][cell] = view;
-        sum += view;
-        ++told;
-      }
-      here.joint[cell] = told > 0 ? sum : kUnknown;
-      here.per_view[cell] = told > 0 ? sum / told : kUnknown;
-      here.evaluated[cell] = told > 0 ? 1 : 0;
+      here.evaluated[cell] = combine(values, baselines, cell, here) ? 1 : 0;
     }
     result.levels.push_back(std::move(here));
   }
+  result.baselines = std::move(baselines);
   return result;
+}
+
+bool GridSearch::combine(std::span<const Values> values, std::span<const double> baselines,
+                         CellIndex cell, LevelLikelihood& level) const {
+  double sum = 0;
+  int told = 0;
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    double view = 0;
+    bool view_told = false;
+    for (std::size_t w = 0; w < witnesses_.size(); ++w) {
+      const std::size_t pair = w * cameras_ + camera;
+      if (!std::isfinite(values[pair][cell])) continue;
+      view += witnesses_[w].weight * (values[pair][cell] - baselines[pair]);
+      view_told = true;
+    }
+    level.views[camera][cell] = view_told ? view : kUnknown;
+    if (!view_told) continue;
+    sum += view;
+    ++told;
+  }
+  level.joint[cell] = told > 0 ? sum : kUnknown;
+  level.per_view[cell] = told > 0 ? sum / told : kUnknown;
+  return told > 0;
+}
+
+void GridSearch::judge(const AllEvidence& evidence, std::span<const double> baselines,
+                       std::size_t size, std::span<const CellIndex> cells,
+                       LevelLikelihood& finest) const {
+  const std::size_t level = grid_->levels() - 1;
+  std::vector<Values> values(witnesses_.size() * cameras_, Values(grid_->size(level), kUnknown));
+  evaluate(level + size, cells, evidence, values);
+  for (const CellIndex cell : cells) {
+    finest.evaluated[cell] = combine(values, baselines, cell, finest) ? 1 : 0;
+  }
+}
+
+AllEvidence GridSearch::explain(const AllEvidence& evidence,
+                                std::span<const PlacedBody> people) const {
+  AllEvidence rest = evidence;
+  parallel_for(witnesses_.size() * cameras_, [&](std::size_t pair) {
+    const std::size_t w = pair / cameras_, camera = pair % cameras_;
+    EvidencePtr& view = rest[w][camera];
+    if (!view) return;
+    for (std::size_t size = 0; size < sizes().size(); ++size) {
+      const std::size_t layer = grid_->levels() - 1 + size;
+      std::vector<std::uint32_t> which;
+      for (const PlacedBody& body : people) {
+        if (body.size != size) continue;
+        const std::uint32_t index = template_of_cell_[layer][camera][body.cell];
+        if (index != kUnseen) which.push_back(index);
+      }
+      view = witnesses_[w].modality->explain(view, *batches_[layer][pair], which);
+    }
+  });
+  return rest;
+}
+
+bool GridSearch::touch(CellIndex a, CellIndex b) const {
+  return std::any_of(reach_.begin(), reach_.end(), [&](const std::vector<Box>& reach) {
+    const Box &p = reach[a], &q = reach[b];
+    return p.width > 0 && q.width > 0 && p.left < q.right() && q.left < p.right() &&
+           p.top < q.bottom() && q.top < p.bottom();
+  });
+}
+
+std::vector<CellIndex> GridSearch::touching(CellIndex cell) const {
+  std::vector<CellIndex> found;
+  std::copy_if(seen_cells_.back().begin(), seen_cells_.back().end(), std::back_inserter(found),
+               [&](CellIndex other) { return touch(cell, other); });
+  return found;
 }
 
 }  // namespace plaza

@@ -25,8 +25,18 @@ struct LevelLikelihood {
   std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
 };
 
+/// Evidence of one frame: [witness][camera]; null where the view has none.
+using AllEvidence = std::vector<std::vector<EvidencePtr>>;
+
+/// Somebody on the finest level.
+struct PlacedBody {
+  CellIndex cell = 0;
+  std::size_t size = 0;  ///< index of GridSearch::sizes()
+};
+
 struct SearchResult {
   std::vector<LevelLikelihood> levels;  ///< coarse to fine
+  std::vector<double> baselines;        ///< [witness * cameras + camera]
   std::size_t evaluated = 0;            ///< cells, over all levels
   std::size_t exhaustive = 0;           ///< cells of the finest level that any view sees
 };
@@ -52,27 +62,47 @@ class GridSearch {
   GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy, const ShapeModel& model,
              std::vector<Witness> witnesses, std::size_t cameras, double refine_above, int spread);
 
-  /// evidence[witness][camera]; null where the view has none. Thread-safe.
-  SearchResult search(std::span<const std::vector<EvidencePtr>> evidence) const;
+  /// Thread-safe, as is all of the following.
+  SearchResult search(const AllEvidence& evidence) const;
+
+  /// Layers of the finest level: bodies of the model's own size first.
+  std::span<const TemplateLayer> sizes() const {
+    return hierarchy_->layers().subspan(grid_->levels() - 1);
+  }
+  /// Evaluates cells of the finest level against other evidence, with bodies of sizes()[size], and
+  /// writes their values, and nothing but theirs, to `finest`.
+  void judge(const AllEvidence& evidence, std::span<const double> baselines, std::size_t size,
+             std::span<const CellIndex> cells, LevelLikelihood& finest) const;
+  /// The evidence without what people in these cells of the finest level account for.
+  AllEvidence explain(const AllEvidence& evidence, std::span<const PlacedBody> people) const;
+  /// Cells of the finest level, rising, whose people could share evidence with somebody in `cell`:
+  /// their silhouettes' boxes, grown by a quarter of their heights, meet in some view.
+  std::vector<CellIndex> touching(CellIndex cell) const;
+  bool touch(CellIndex a, CellIndex b) const;
 
  private:
   using Values = std::vector<double>;  ///< [cell]
   /// Evaluates `wanted` cells: values[witness * cameras + camera][cell].
-  void evaluate(std::size_t level, std::span<const CellIndex> wanted,
-                std::span<const std::vector<EvidencePtr>> evidence,
+  void evaluate(std::size_t layer, std::span<const CellIndex> wanted, const AllEvidence& evidence,
                 std::vector<Values>& values) const;
+  /// What the values of all pairs say of one cell; returns false when nothing can tell.
+  bool combine(std::span<const Values> values, std::span<const double> baselines, CellIndex cell,
+               LevelLikelihood& level) const;
   std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
 
   const StateGrid* grid_;
+  const TemplateHierarchy* hierarchy_;
   std::vector<Witness> witnesses_;
   std::size_t cameras_;
   double refine_above_;
   int spread_;
-  /// [level][witness * cameras + camera]
+  /// [layer][witness * cameras + camera]
   std::vector<std::vector<std::unique_ptr<TemplateBatch>>> batches_;
-  /// [level][camera][cell]: index of the template in the batch; kUnseen: the view doesn't see it
+  /// [layer][camera][cell]: index of the template in the batch; kUnseen: the view doesn't see it
   std::vector<std::vector<std::vector<std::uint32_t>>> template_of_cell_;
   std::vector<std::vector<CellIndex>> seen_cells_;  ///< [level]: by any camera, rising
+  /// [camera][cell of the finest level]: of the silhouette, grown; empty where it isn't seen
+  std::vector<std::vector<Box>> reach_;
 };
 
 }  // namespace plaza

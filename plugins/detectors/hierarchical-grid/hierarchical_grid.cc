@@ -59,15 +59,6 @@ ParameterSpec weight_field() {
   return p.specs().front();
 }
 
-/// What an observation is judged by: the smoothed log-likelihood over that of an empty place, per
-/// view that told. Sums grow with the views that look at a place whether they agree or not.
-double score_of(CellIndex cell, std::span<const double> surface, const LevelLikelihood& level) {
-  const auto told =
-      std::count_if(level.views.begin(), level.views.end(),
-                    [&](const std::vector<double>& view) { return std::isfinite(view[cell]); });
-  return surface[cell] / static_cast<double>(std::max<std::ptrdiff_t>(told, 1));
-}
-
 }  // namespace
 
 Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
@@ -128,6 +119,32 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .at_most(30)
       .meaning("a maximum exceeds all cells so near to it; unset: the smoothing's gate, 3 sigma")
       .source("thesis 4.3.6: within the same neighbourhood");
+  p.choice("inference", &Options::inference, {"independent", "greedy"})
+      .meaning(
+          "independent: each local maximum by itself; greedy: one after the other, whoever the "
+          "evidence speaks for most first, by what the others don't account for");
+  p.value("rounds", &Options::rounds)
+      .at_least(0)
+      .at_most(100)
+      .meaning(
+          "greedy inference: how often everybody is placed and judged again by what all others "
+          "leave");
+  p.value("reach_m", &Options::reach_m)
+      .unit("m")
+      .at_least(0)
+      .at_most(10)
+      .meaning("greedy inference: how far somebody moves in a round");
+  p.value("sizes", &Options::sizes)
+      .at_least(0.2)
+      .at_most(5)
+      .meaning(
+          "greedy inference: sizes of bodies that are tried beside the shape model's own, "
+          "relative to it; none: everybody has that");
+  p.value("size_sigma", &Options::size_sigma)
+      .above(0)
+      .at_most(10)
+      .meaning("standard deviation of people's sizes, relative to the shape model's own")
+      .source("5 % of the height, as among adults");
   p.choice("maxima", &Options::maxima, {"local", "all"})
       .meaning(
           "local: an observation at each local maximum; all: at each evaluated cell, for "
@@ -162,7 +179,7 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
       neighbours_(gaussian_neighbours(grid_.finest(), options.smoothing_m)),
       rivals_(gaussian_neighbours(grid_.finest(),
                                   options.separation_m.value_or(3 * options.smoothing_m) / 3)),
-      hierarchy_(grid_, *scene_) {
+      hierarchy_(grid_, *scene_, options.sizes) {
   for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
 }
 
@@ -182,6 +199,15 @@ void HierarchicalGrid::sample() {
   search_ =
       std::make_unique<GridSearch>(grid_, hierarchy_, *shape_, witnesses_, scene_->cameras.size(),
                                    options_.refine_above, options_.spread);
+  if (options_.inference == Inference::kGreedy) {
+    joint_ = std::make_unique<JointSearch>(grid_, *search_, neighbours_, rivals_,
+                                           JointSearch::Options{.min_score = options_.min_score,
+                                                                .most = options_.most,
+                                                                .rounds = options_.rounds,
+                                                                .reach_m = options_.reach_m,
+                                                                .max_sigma_m = options_.max_sigma_m,
+                                                                .size_sigma = options_.size_sigma});
+  }
 }
 
 std::string HierarchicalGrid::do_extra_key() const {
@@ -198,9 +224,8 @@ std::string HierarchicalGrid::do_extra_key() const {
   return "silhouettes " + std::to_string(hash);
 }
 
-SearchResult HierarchicalGrid::search(const NodeIo& io) const {
-  if (!search_) throw InternalError("the template hierarchy was neither computed nor loaded");
-  std::vector<std::vector<EvidencePtr>> evidence;
+AllEvidence HierarchicalGrid::evidence_of(const NodeIo& io) const {
+  AllEvidence evidence;
   for (const std::size_t slot : slots_) {
     evidence.push_back(io.in<EvidenceSet>(slot).views);
     if (evidence.back().size() != scene_->cameras.size()) {
@@ -208,6 +233,11 @@ SearchResult HierarchicalGrid::search(const NodeIo& io) const {
                           " views in a scene of " + std::to_string(scene_->cameras.size()));
     }
   }
+  return evidence;
+}
+
+SearchResult HierarchicalGrid::searched(const AllEvidence& evidence) const {
+  if (!search_) throw InternalError("the template hierarchy was neither computed nor loaded");
   return search_->search(evidence);
 }
 
@@ -215,12 +245,9 @@ Observations HierarchicalGrid::do_detect(const NodeIo& io) const {
   return do_detect_all(io).observations;
 }
 
-Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
-  SearchResult result = search(io);
-  LevelLikelihood& finest = result.levels.back();
+std::vector<FoundPerson> HierarchicalGrid::independently(const LevelLikelihood& finest) const {
   const GroundGrid& grid = grid_.finest();
   const std::vector<double> surface = smoothed(grid, finest.joint, neighbours_);
-
   std::vector<CellIndex> found;
   if (options_.maxima == Maxima::kLocal) {
     found = local_maxima(grid, surface, finest.evaluated, rivals_);
@@ -229,21 +256,40 @@ Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
       if (finest.evaluated[cell] != 0) found.push_back(static_cast<CellIndex>(cell));
     }
   }
-  Detected out;
-  out.observations.grid = grid;
   std::erase_if(found, [&](CellIndex cell) {
-    return !(score_of(cell, surface, finest) >= options_.min_score);
+    return !(score_of(cell, surface[cell], finest) >= options_.min_score);
   });
   std::stable_sort(found.begin(), found.end(),
                    [&](CellIndex a, CellIndex b) { return surface[a] > surface[b]; });
+  std::vector<FoundPerson> people;
   for (const CellIndex cell : found) {
+    FoundPerson& person = people.emplace_back();
+    person.body.cell = cell;
+    person.score = score_of(cell, surface[cell], finest);
+    person.peak = options_.maxima == Maxima::kLocal
+                      ? peak_at(grid, surface, cell, options_.max_sigma_m)
+                      : Peak{grid_.position(grid_.levels() - 1, cell), covariance_of_cell(grid)};
+    for (const std::vector<double>& view : finest.views) person.views.push_back(view[cell]);
+  }
+  return people;
+}
+
+Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
+  const AllEvidence evidence = evidence_of(io);
+  SearchResult result = searched(evidence);
+  LevelLikelihood& finest = result.levels.back();
+  const std::vector<FoundPerson> people =
+      joint_ ? joint_->infer(evidence, result) : independently(finest);
+  Detected out;
+  out.observations.grid = grid_.finest();
+  for (const FoundPerson& person : people) {
     if (out.observations.items.size() == static_cast<std::size_t>(options_.most)) break;
-    Observation o = observation_at(cell, surface, finest);
+    Observation o = observation_of(person);
     if (scene_->area.contains(o.position_m)) out.observations.items.push_back(std::move(o));
   }
 
   auto likelihood = std::make_shared<GroundLikelihood>();
-  likelihood->grid = grid;
+  likelihood->grid = grid_.finest();
   for (std::size_t cell = 0; cell < finest.joint.size(); ++cell) {
     if (finest.evaluated[cell] == 0) finest.joint[cell] = std::nan("");
   }
@@ -253,24 +299,19 @@ Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
   return out;
 }
 
-Observation HierarchicalGrid::observation_at(CellIndex cell, std::span<const double> surface,
-                                             const LevelLikelihood& finest) const {
-  const GroundGrid& grid = grid_.finest();
+Observation HierarchicalGrid::observation_of(const FoundPerson& person) const {
   Observation o;
-  if (options_.maxima == Maxima::kLocal) {
-    const Peak peak = peak_at(grid, surface, cell, options_.max_sigma_m);
-    o.position_m = peak.position_m;
-    o.covariance_m2 = peak.covariance_m2;
-  } else {
-    o.position_m = grid_.position(grid_.levels() - 1, cell);
-    o.covariance_m2 = covariance_of_cell(grid);
-  }
-  o.probability = curve_(score_of(cell, surface, finest));
-  for (std::size_t camera = 0; camera < finest.views.size(); ++camera) {
-    const double view = finest.views[camera][cell];
-    if (!std::isfinite(view)) continue;
-    if (const auto box = body_box(scene_->cameras[camera], o.position_m, shape_->body())) {
-      o.boxes.push_back({camera, *box, view});
+  o.position_m = person.peak.position_m;
+  o.covariance_m2 = person.peak.covariance_m2;
+  o.probability = curve_(person.score);
+  Body body = shape_->body();
+  const double scale = search_->sizes()[person.body.size].scale;
+  body.height_m *= scale;
+  body.radius_m *= scale;
+  for (std::size_t camera = 0; camera < person.views.size(); ++camera) {
+    if (!std::isfinite(person.views[camera])) continue;
+    if (const auto box = body_box(scene_->cameras[camera], o.position_m, body)) {
+      o.boxes.push_back({camera, *box, person.views[camera]});
     }
   }
   return o;

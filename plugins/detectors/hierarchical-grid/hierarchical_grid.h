@@ -8,7 +8,7 @@
 #include "plaza/component/declaration.h"
 #include "plaza/component/learner.h"
 #include "plugins/detectors/common/probability_curve.h"
-#include "plugins/detectors/hierarchical-grid/grid_search.h"
+#include "plugins/detectors/hierarchical-grid/joint_search.h"
 #include "plugins/detectors/hierarchical-grid/likelihood_surface.h"
 
 namespace plaza {
@@ -20,6 +20,7 @@ namespace plaza {
 /// What it learns before the stream is the template hierarchy, which needs no frames.
 class HierarchicalGrid final : public Detector, private Learner {
  public:
+  enum class Inference { kIndependent, kGreedy };
   enum class Maxima { kLocal, kAll };
   struct Options {
     int cells = 80;
@@ -32,6 +33,11 @@ class HierarchicalGrid final : public Detector, private Learner {
     int spread = 1;
     double smoothing_m = 0.22;
     std::optional<double> separation_m;
+    Inference inference = Inference::kIndependent;
+    int rounds = 3;
+    double reach_m = 0.5;
+    std::vector<double> sizes;
+    double size_sigma = 0.05;
     Maxima maxima = Maxima::kLocal;
     double min_score = 1.5;
     int most = 100;
@@ -45,7 +51,7 @@ class HierarchicalGrid final : public Detector, private Learner {
   Learner* learner() override { return this; }
 
   /// The search alone, for tests and benchmarks. The templates must be there.
-  SearchResult search(const NodeIo& io) const;
+  SearchResult search(const NodeIo& io) const { return searched(evidence_of(io)); }
   const StateGrid& grid() const { return grid_; }
 
  private:
@@ -61,8 +67,10 @@ class HierarchicalGrid final : public Detector, private Learner {
   std::string do_extra_key() const override;
 
   void sample();
-  Observation observation_at(CellIndex cell, std::span<const double> surface,
-                             const LevelLikelihood& finest) const;
+  AllEvidence evidence_of(const NodeIo& io) const;
+  SearchResult searched(const AllEvidence& evidence) const;
+  std::vector<FoundPerson> independently(const LevelLikelihood& finest) const;
+  Observation observation_of(const FoundPerson& person) const;
 
   Options options_;
   std::shared_ptr<const Scene> scene_;
@@ -75,6 +83,7 @@ class HierarchicalGrid final : public Detector, private Learner {
   std::vector<Neighbour> rivals_;      ///< that a maximum must exceed
   TemplateHierarchy hierarchy_;
   std::unique_ptr<const GridSearch> search_;  ///< null until the templates are there
+  std::unique_ptr<const JointSearch> joint_;  ///< null unless people are inferred together
 };
 
 }  // namespace plaza

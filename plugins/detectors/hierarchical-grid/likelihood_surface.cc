@@ -54,6 +54,24 @@ std::vector<double> smoothed(const GroundGrid& grid, std::span<const double> log
   return out;
 }
 
+double smoothed_at(const GroundGrid& grid, std::span<const double> log_likelihood,
+                   std::span<const Neighbour> neighbours, CellIndex cell) {
+  if (!std::isfinite(log_likelihood[cell])) return kNoLikelihood;
+  const int column = static_cast<int>(cell) % grid.columns;
+  const int row = static_cast<int>(cell) / grid.columns;
+  double largest = log_likelihood[cell];
+  for_each_neighbour(grid, column, row, neighbours, [&](std::size_t other, double /*weight*/) {
+    if (log_likelihood[other] > largest) largest = log_likelihood[other];
+  });
+  double sum = 0, weights = 0;
+  for_each_neighbour(grid, column, row, neighbours, [&](std::size_t other, double weight) {
+    if (!std::isfinite(log_likelihood[other])) return;
+    sum += weight * std::exp(std::max(log_likelihood[other] - largest, kFloor));
+    weights += weight;
+  });
+  return largest + std::log(sum / weights);
+}
+
 std::vector<CellIndex> local_maxima(const GroundGrid& grid, std::span<const double> surface,
                                     std::span<const char> candidate,
                                     std::span<const Neighbour> neighbours) {

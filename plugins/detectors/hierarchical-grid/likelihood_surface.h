@@ -14,6 +14,10 @@ namespace plaza {
 std::vector<double> smoothed(const GroundGrid& grid, std::span<const double> log_likelihood,
                              std::span<const Neighbour> neighbours);
 
+/// The same for one cell.
+double smoothed_at(const GroundGrid& grid, std::span<const double> log_likelihood,
+                   std::span<const Neighbour> neighbours, CellIndex cell);
+
 /// Cells that no neighbour exceeds, by rising index; of equal neighbours the first. Only cells with
 /// `candidate` are asked, all known cells are compared with.
 std::vector<CellIndex> local_maxima(const GroundGrid& grid, std::span<const double> surface,
@@ -22,8 +26,8 @@ std::vector<CellIndex> local_maxima(const GroundGrid& grid, std::span<const doub
 
 /// Where the surface peaks near a cell, and how sharply.
 struct Peak {
-  Eigen::Vector2d position_m;
-  Eigen::Matrix2d covariance_m2;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Identity();
 };
 /// From the parabola through the cell and its eight neighbours: its summit, at most half a cell
 /// away, and the inverse of its negative curvature. Standard deviations are kept between

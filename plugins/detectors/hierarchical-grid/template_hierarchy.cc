@@ -15,7 +15,7 @@
 namespace plaza {
 namespace {
 
-constexpr std::string_view kMagic = "plaza template hierarchy 1\n";
+constexpr std::string_view kMagic = "plaza template hierarchy 2\n";
 constexpr std::size_t kCellsPerTask = 64;  ///< cells that one task projects
 
 void write(std::ostream& out, std::uint64_t value) {
@@ -51,8 +51,15 @@ std::string read_bytes(std::istream& in, std::uint64_t size) {
 
 }  // namespace
 
+TemplateHierarchy::TemplateHierarchy(const StateGrid& grid, const Scene& scene,
+                                     std::span<const double> other_scales)
+    : grid_(&grid), scene_(&scene) {
+  for (std::size_t level = 0; level < grid.levels(); ++level) layers_.push_back({level, 1});
+  for (const double scale : other_scales) layers_.push_back({grid.levels() - 1, scale});
+}
+
 void TemplateHierarchy::compute(const ShapeModel& model, double min_inside, bool use_occluders) {
-  views_.assign(scene_->cameras.size(), std::vector<LevelTemplates>(grid_->levels()));
+  views_.assign(scene_->cameras.size(), std::vector<LevelTemplates>(layers_.size()));
   for (std::size_t camera = 0; camera < views_.size(); ++camera) {
     std::vector<OccluderPolygon> occluders;
     for (const StaticOccluder& o : scene_->occluders) {
@@ -60,16 +67,17 @@ void TemplateHierarchy::compute(const ShapeModel& model, double min_inside, bool
         occluders.push_back(o.polygon_px);
       }
     }
-    for (std::size_t level = 0; level < grid_->levels(); ++level) {
+    for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+      const auto [level, scale] = layers_[layer];
       const std::size_t cells = grid_->size(level);
       std::vector<LevelTemplates> parts((cells + kCellsPerTask - 1) / kCellsPerTask);
-      parallel_for(parts.size(), [&](std::size_t part) {
+      parallel_for(parts.size(), [&, level = level, scale = scale](std::size_t part) {
         LevelTemplates& out = parts[part];
         for (std::size_t i = part * kCellsPerTask; i < std::min(cells, (part + 1) * kCellsPerTask);
              ++i) {
           const auto cell = static_cast<CellIndex>(i);
           Silhouette s =
-              model.silhouette({grid_->position(level, cell), 0, 1}, scene_->cameras[camera]);
+              model.silhouette({grid_->position(level, cell), 0, scale}, scene_->cameras[camera]);
           if (!occluders.empty()) s = without_hidden(s, occluders);
           if (s.spans.empty() || s.inside_share < min_inside) continue;
           out.cells.push_back(cell);
@@ -77,7 +85,7 @@ void TemplateHierarchy::compute(const ShapeModel& model, double min_inside, bool
           encode(s, out.bytes);
         }
       });
-      LevelTemplates& all = views_[camera][level];
+      LevelTemplates& all = views_[camera][layer];
       for (const LevelTemplates& part : parts) {
         all.cells.insert(all.cells.end(), part.cells.begin(), part.cells.end());
         for (const std::size_t offset : part.offsets) {
@@ -92,25 +100,25 @@ void TemplateHierarchy::compute(const ShapeModel& model, double min_inside, bool
 void TemplateHierarchy::save(std::ostream& out) const {
   out << kMagic;
   write(out, views_.size());
-  write(out, grid_->levels());
+  write(out, layers_.size());
   for (const std::vector<LevelTemplates>& view : views_) {
-    for (const LevelTemplates& level : view) {
-      write(out, level.cells.size());
-      for (const CellIndex cell : level.cells) write(out, cell);
-      write(out, level.bytes.size());
-      out << level.bytes;
+    for (const LevelTemplates& layer : view) {
+      write(out, layer.cells.size());
+      for (const CellIndex cell : layer.cells) write(out, cell);
+      write(out, layer.bytes.size());
+      out << layer.bytes;
     }
   }
 }
 
 void TemplateHierarchy::load(std::istream& in) {
   if (read_bytes(in, kMagic.size()) != kMagic) throw Error("this is no stored template hierarchy");
-  if (read(in) != scene_->cameras.size() || read(in) != grid_->levels()) {
-    throw Error("the stored template hierarchy is for other cameras or levels");
+  if (read(in) != scene_->cameras.size() || read(in) != layers_.size()) {
+    throw Error("the stored template hierarchy is for other cameras, levels or sizes");
   }
   std::vector<std::vector<LevelTemplates>> views(scene_->cameras.size());
   for (std::vector<LevelTemplates>& view : views) {
-    for (std::size_t level = 0; level < grid_->levels(); ++level) {
+    for (const auto& [level, scale] : layers_) {
       LevelTemplates t;
       const std::uint64_t count = read(in);
       if (count > grid_->size(level)) {
@@ -140,16 +148,16 @@ void TemplateHierarchy::load(std::istream& in) {
 }
 
 Silhouette StoredShape::do_silhouette(const Pose& pose, const Camera& camera) const {
-  const GroundGrid& grid = grid_->grid(level_);
+  const GroundGrid& grid = grid_->grid(layer_.level);
   const Eigen::Vector2d at = (pose.position_m - grid.origin_m).cwiseQuotient(grid.step_m);
   const double column = std::round(at.x()), row = std::round(at.y());
-  const bool on_grid = pose.heading_rad == 0 && pose.scale == 1 && column >= 0 && row >= 0 &&
-                       column < grid.columns && row < grid.rows;
+  const bool on_grid = pose.heading_rad == 0 && pose.scale == layer_.scale && column >= 0 &&
+                       row >= 0 && column < grid.columns && row < grid.rows;
   if (on_grid) {
     const auto cell = static_cast<CellIndex>(row * grid.columns + column);
     const auto found = std::lower_bound(templates_->cells.begin(), templates_->cells.end(), cell);
     const bool stored = found != templates_->cells.end() && *found == cell;
-    if (stored && grid_->position(level_, cell) == pose.position_m) {
+    if (stored && grid_->position(layer_.level, cell) == pose.position_m) {
       std::size_t offset =
           templates_->offsets[static_cast<std::size_t>(found - templates_->cells.begin())];
       return decode(templates_->bytes, offset);

@@ -2,6 +2,7 @@
 
 #include <iosfwd>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,19 +19,30 @@ struct LevelTemplates {
   std::string bytes;                 ///< see silhouette_codec.h
 };
 
+/// Cells of one level with bodies of one size.
+struct TemplateLayer {
+  std::size_t level = 0;
+  double scale = 1;  ///< of the body relative to the model's own size
+};
+
 /// The template hierarchy of thesis 4.3.1: the model at the centre of every cell of every level,
-/// seen by every camera, where it can be seen.
+/// seen by every camera, where it can be seen; on the finest level in several sizes.
 class TemplateHierarchy {
  public:
-  /// `grid` and `scene` are kept by reference and must outlive the hierarchy.
-  TemplateHierarchy(const StateGrid& grid, const Scene& scene) : grid_(&grid), scene_(&scene) {}
+  /// `other_scales`: of bodies on the finest level beside the model's own size. `grid` and `scene`
+  /// are kept by reference and must outlive the hierarchy.
+  TemplateHierarchy(const StateGrid& grid, const Scene& scene,
+                    std::span<const double> other_scales = {});
+
+  /// One per level in the model's own size, coarse to fine, then those of other sizes.
+  std::span<const TemplateLayer> layers() const { return layers_; }
 
   /// Projects the model everywhere; what the scene's occluders hide is left out where
   /// `use_occluders`. A camera sees a cell when at least `min_inside` of the silhouette's area is
   /// in its image and not hidden.
   void compute(const ShapeModel& model, double min_inside, bool use_occluders);
-  const LevelTemplates& templates(std::size_t camera, std::size_t level) const {
-    return views_[camera][level];
+  const LevelTemplates& templates(std::size_t camera, std::size_t layer) const {
+    return views_[camera][layer];
   }
 
   void save(std::ostream& out) const;
@@ -39,21 +51,20 @@ class TemplateHierarchy {
   void load(std::istream& in);
 
  private:
-  void check(const LevelTemplates& templates, std::size_t level) const;
-
   const StateGrid* grid_;
   const Scene* scene_;
-  std::vector<std::vector<LevelTemplates>> views_;  ///< [camera][level]
+  std::vector<TemplateLayer> layers_;
+  std::vector<std::vector<LevelTemplates>> views_;  ///< [camera][layer]
 };
 
-/// Serves stored silhouettes of one level in one view to modalities; asks the model itself for any
+/// Serves stored silhouettes of one layer in one view to modalities; asks the model itself for any
 /// other pose.
 class StoredShape final : public ShapeModel {
  public:
   /// All arguments must outlive the shape.
-  StoredShape(const ShapeModel& model, const StateGrid& grid, std::size_t level,
+  StoredShape(const ShapeModel& model, const StateGrid& grid, const TemplateLayer& layer,
               const LevelTemplates& templates)
-      : model_(&model), grid_(&grid), level_(level), templates_(&templates) {}
+      : model_(&model), grid_(&grid), layer_(layer), templates_(&templates) {}
 
  private:
   Silhouette do_silhouette(const Pose& pose, const Camera& camera) const override;
@@ -61,7 +72,7 @@ class StoredShape final : public ShapeModel {
 
   const ShapeModel* model_;
   const StateGrid* grid_;
-  std::size_t level_;
+  TemplateLayer layer_;
   const LevelTemplates* templates_;
 };
 

@@ -175,7 +175,8 @@ const std::map<std::string, Maker>& table() {
        [](const fs::path&) {
          return std::vector<Trial>{Trial(), trial("median", {{"background", "median"}}),
                                    trial("sobel", {{"method", "sobel"}, {"background", "none"}}),
-                                   trial("silhouette", {{"explains", "silhouette"}})};
+                                   trial("silhouette", {{"explains", "silhouette"}}),
+                                   trial("region", {{"explains", "region"}})};
        }},
       {"color",
        [](const fs::path&) {
@@ -211,6 +212,11 @@ const std::map<std::string, Maker>& table() {
          const Values modalities = Values::array({{{"from", "overlap"}, {"weight", 2.0}}});
          std::vector<Trial> trials = {
              trial("local maxima", {{"modalities", modalities}, {"cells", 20}, {"min_score", 0.3}}),
+             trial("greedy", {{"modalities", modalities},
+                              {"cells", 20},
+                              {"min_score", 0.3},
+                              {"inference", "greedy"},
+                              {"sizes", {0.9}}}),
              trial("all cells", {{"modalities", modalities},
                                  {"cells", 12},
                                  {"levels", 2},

@@ -37,6 +37,21 @@ TEST(Smoothed, IsTheWeightedMeanOfLikelihoods) {
   EXPECT_NEAR(s[at(0, 3)], -4, 1e-12) << "too far away";
 }
 
+TEST(Smoothed, OneCellIsLikeAll) {
+  const auto neighbours = gaussian_neighbours(kGrid, 0.3);
+  auto log_likelihood = surface_of([](double x, double y) { return 3 * std::sin(2 * x) - y * y; });
+  for (const std::size_t unknown : {at(0, 0), at(4, 3), at(5, 3)}) log_likelihood[unknown] = kNan;
+  const auto all = smoothed(kGrid, log_likelihood, neighbours);
+  for (std::size_t cell = 0; cell < kCells; ++cell) {
+    const double one = smoothed_at(kGrid, log_likelihood, neighbours, static_cast<CellIndex>(cell));
+    if (std::isnan(all[cell])) {
+      EXPECT_TRUE(std::isnan(one)) << cell;
+    } else {
+      EXPECT_NEAR(one, all[cell], 1e-12) << cell;
+    }
+  }
+}
+
 TEST(Smoothed, LeavesOutWhatIsUnknown) {
   const auto neighbours = gaussian_neighbours(kGrid, 0.3);
   std::vector<double> log_likelihood(kCells, -2);

@@ -131,7 +131,7 @@ TEST(StoredShape, ServesWhatIsStoredAndAsksForTheRest) {
   s.hierarchy.compute(s.shape, 0.3, true);
   const Camera& camera = s.scene->cameras[0];
   const LevelTemplates& t = s.hierarchy.templates(0, 1);
-  const StoredShape stored(s.shape, s.grid, 1, t);
+  const StoredShape stored(s.shape, s.grid, {1, 1}, t);
   std::size_t at = t.offsets[5];
   const Silhouette fifth = decode(t.bytes, at);
   const Pose pose{s.grid.position(1, t.cells[5]), 0, 1};
@@ -141,6 +141,33 @@ TEST(StoredShape, ServesWhatIsStoredAndAsksForTheRest) {
     const Silhouette direct = s.shape.silhouette(other, camera);
     EXPECT_EQ(stored.silhouette(other, camera).contour.at(3).pixel, direct.contour.at(3).pixel);
   }
+}
+
+TEST(TemplateHierarchy, HoldsOtherSizesOnTheFinestLevel) {
+  Place s;
+  const double sizes[] = {0.9};
+  TemplateHierarchy all(s.grid, *s.scene, sizes), loaded(s.grid, *s.scene, sizes);
+  all.compute(s.shape, 0.9, true);
+  ASSERT_EQ(all.layers().size(), 3U);
+  EXPECT_EQ(all.layers()[2].level, 1U);
+  EXPECT_EQ(all.layers()[2].scale, 0.9);
+  std::stringstream file;
+  all.save(file);
+  loaded.load(file);
+  for (const TemplateHierarchy* hierarchy : {&all, &loaded}) {
+    const LevelTemplates& t = hierarchy->templates(0, 2);
+    const StoredShape stored(s.shape, s.grid, hierarchy->layers()[2], t);
+    ASSERT_FALSE(t.cells.empty());
+    for (const CellIndex cell : t.cells) {
+      const Pose pose{s.grid.position(1, cell), 0, 0.9};
+      expect_near(s.shape.silhouette(pose, s.scene->cameras[0]),
+                  stored.silhouette(pose, s.scene->cameras[0]));
+    }
+  }
+  TemplateHierarchy without(s.grid, *s.scene);
+  file.clear();
+  file.seekg(0);
+  EXPECT_THROW(without.load(file), Error) << "stored with another number of sizes";
 }
 
 }  // namespace

@@ -1,0 +1,307 @@
+#include "plugins/detectors/hierarchical-grid/joint_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace plaza {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Nothing known of any cell.
+LevelLikelihood unknown_like(const LevelLikelihood& other) {
+  LevelLikelihood out;
+  out.joint.assign(other.joint.size(), kUnknown);
+  out.per_view = out.joint;
+  out.evaluated.assign(other.evaluated.size(), 0);
+  out.views.assign(other.views.size(), out.joint);
+  return out;
+}
+
+}  // namespace
+
+double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) {
+  const auto told =
+      std::count_if(level.views.begin(), level.views.end(),
+                    [&](const std::vector<double>& view) { return std::isfinite(view[cell]); });
+  return smoothed / static_cast<double>(std::max<std::ptrdiff_t>(told, 1));
+}
+
+/// One frame's people while they are inferred.
+class JointSearch::Scenario {
+ public:
+  Scenario(const JointSearch& search, const AllEvidence& evidence, const SearchResult& first)
+      : s_(search),
+        grid_(search.grid_->finest()),
+        evidence_(evidence),
+        baselines_(first.baselines),
+        rest_(evidence),
+        now_(first.levels.back()),
+        surface_(smoothed(grid_, now_.joint, search.neighbours_)),
+        alone_(search.priors_.size(), unknown_like(now_)),
+        known_(search.priors_.size(), std::vector<char>(surface_.size(), 0)) {}
+
+  /// Whether anybody was accepted.
+  bool accept() {
+    bool any = false;
+    while (people_.size() < static_cast<std::size_t>(s_.options_.most)) {
+      const std::optional<CellIndex> best = best_cell();
+      if (!best) break;
+      any = true;
+      changed(*best);
+      people_.emplace_back().person.body.cell = *best;
+      const PlacedBody body[] = {people_.back().person.body};
+      rest_ = s_.search_->explain(rest_, body);
+      refresh(s_.search_->touching(*best));
+    }
+    return any;
+  }
+
+  /// Whether anybody moved or went.
+  bool judge_again(bool may_change) {
+    bool any = false;
+    for (std::size_t k = 0; k < people_.size();) {
+      if (!people_[k].stale) {
+        ++k;
+        continue;
+      }
+      people_[k].stale = false;
+      const PlacedBody before = people_[k].person.body;
+      const bool stays = place(k, may_change);
+      if (may_change && !stays) {
+        people_.erase(people_.begin() + static_cast<std::ptrdiff_t>(k));
+        changed(before.cell);
+        any = true;
+        continue;
+      }
+      const PlacedBody after = people_[k].person.body;
+      if (after.cell != before.cell || after.size != before.size) {
+        changed(before.cell);
+        changed(after.cell);
+        people_[k].stale = false;
+        any = true;
+      }
+      ++k;
+    }
+    return any;
+  }
+
+  /// What is left when everybody has moved.
+  void take_away_again() {
+    rest_ = s_.search_->explain(evidence_, bodies_of_others(people_.size()));
+    refresh(moved_);
+    moved_.clear();
+  }
+
+  std::vector<FoundPerson> people() && {
+    std::vector<FoundPerson> out;
+    for (Entry& entry : people_) out.push_back(std::move(entry.person));
+    std::stable_sort(out.begin(), out.end(),
+                     [](const FoundPerson& a, const FoundPerson& b) { return a.score > b.score; });
+    return out;
+  }
+
+ private:
+  struct Entry {
+    FoundPerson person;
+    bool stale = true;  ///< somebody near has changed since this one was judged
+  };
+
+  bool blocked(CellIndex cell, std::size_t by_others_than) const {
+    const int column = static_cast<int>(cell) % grid_.columns;
+    const int row = static_cast<int>(cell) / grid_.columns;
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      if (i == by_others_than) continue;
+      const int c = static_cast<int>(people_[i].person.body.cell) % grid_.columns - column;
+      const int r = static_cast<int>(people_[i].person.body.cell) / grid_.columns - row;
+      const bool near = std::any_of(s_.rivals_.begin(), s_.rivals_.end(), [&](const Neighbour& n) {
+        return n.columns == c && n.rows == r;
+      });
+      if (near) return true;
+    }
+    return false;
+  }
+
+  std::optional<CellIndex> best_cell() const {
+    std::optional<CellIndex> best;
+    for (std::size_t i = 0; i < surface_.size(); ++i) {
+      const auto cell = static_cast<CellIndex>(i);
+      if (now_.evaluated[i] == 0 || !std::isfinite(surface_[i])) continue;
+      if (best && !(surface_[i] > surface_[*best])) continue;
+      if (!(score_of(cell, surface_[i], now_) >= s_.options_.min_score)) continue;
+      if (blocked(cell, people_.size())) continue;
+      best = cell;
+    }
+    return best;
+  }
+
+  /// Judges cells again by what is left.
+  void refresh(const std::vector<CellIndex>& cells) {
+    s_.search_->judge(rest_, baselines_, 0, cells, now_);
+    std::vector<char> todo(surface_.size(), 0);
+    for (const CellIndex cell : cells) {
+      for (const CellIndex other : s_.around(cell, s_.neighbours_)) todo[other] = 1;
+    }
+    for (std::size_t i = 0; i < todo.size(); ++i) {
+      if (todo[i] == 0) continue;
+      surface_[i] = smoothed_at(grid_, now_.joint, s_.neighbours_, static_cast<CellIndex>(i));
+    }
+  }
+
+  void changed(CellIndex cell) {
+    for (Entry& entry : people_) {
+      entry.stale = entry.stale || s_.search_->touch(cell, entry.person.body.cell);
+    }
+    const std::vector<CellIndex> cells = s_.search_->touching(cell);
+    moved_.insert(moved_.end(), cells.begin(), cells.end());
+    std::sort(moved_.begin(), moved_.end());
+    moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+  }
+
+  std::vector<PlacedBody> bodies_of_others(std::size_t k) const {
+    std::vector<PlacedBody> bodies;
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      if (i != k) bodies.push_back(people_[i].person.body);
+    }
+    return bodies;
+  }
+
+  /// Judges one by what all others leave; false when the best place doesn't score enough.
+  bool place(std::size_t k, bool may_move) {
+    FoundPerson& person = people_[k].person;
+    std::vector<PlacedBody> others = bodies_of_others(k);
+    std::erase_if(others, [&](const PlacedBody& other) {
+      return !s_.search_->touch(other.cell, person.body.cell);
+    });
+    own_ = s_.search_->explain(evidence_, others);
+    if (may_move) {
+      person.body.cell = climb(person.body, k);
+      const PlacedBody before = person.body;
+      for (std::size_t size = 0; size < s_.priors_.size(); ++size) {
+        if (value({before.cell, size}) > value(person.body)) person.body.size = size;
+      }
+      if (person.body.size != before.size) person.body.cell = climb(person.body, k);
+    }
+    const double most = value(person.body);
+    const LevelLikelihood& level = alone_[person.body.size];
+    person.score = std::isfinite(most) ? score_of(person.body.cell, most, level) : 0;
+    for (const CellIndex cell : s_.around(person.body.cell, s_.ring_)) {
+      alone_surface_[cell] = value({cell, person.body.size});
+    }
+    person.peak = peak_at(grid_, alone_surface_, person.body.cell, s_.options_.max_sigma_m);
+    for (const CellIndex cell : s_.around(person.body.cell, s_.ring_)) {
+      alone_surface_[cell] = kUnknown;
+    }
+    person.views.clear();
+    for (const std::vector<double>& view : level.views) {
+      person.views.push_back(view[person.body.cell]);
+    }
+    forget();
+    return std::isfinite(most) && person.score >= s_.options_.min_score;
+  }
+
+  /// The summit next to a body, uphill, at most options.reach_m away.
+  CellIndex climb(const PlacedBody& start, std::size_t k) {
+    PlacedBody here = start;
+    const double reach_m = s_.options_.reach_m;
+    while (true) {
+      PlacedBody best = here;
+      for (const CellIndex cell : s_.around(here.cell, s_.ring_)) {
+        const PlacedBody next{cell, here.size};
+        if (!(value(next) > value(best)) || blocked(cell, k)) continue;
+        if ((s_.position(cell) - s_.position(start.cell)).norm() > reach_m) continue;
+        best = next;
+      }
+      if (best.cell == here.cell) return here.cell;
+      here = best;
+    }
+  }
+
+  /// Of a place, by one's own evidence, smoothed, with the prior of the size; NaN: unknown.
+  double value(const PlacedBody& body) {
+    std::vector<char>& known = known_[body.size];
+    std::vector<CellIndex> missing;
+    for (const CellIndex cell : s_.around(body.cell, s_.neighbours_)) {
+      if (known[cell] == 0) missing.push_back(cell);
+      known[cell] = 1;
+    }
+    if (!missing.empty()) {
+      s_.search_->judge(own_, baselines_, body.size, missing, alone_[body.size]);
+      for (const CellIndex cell : missing) looked_at_.push_back({cell, body.size});
+    }
+    return smoothed_at(grid_, alone_[body.size].joint, s_.neighbours_, body.cell) +
+           s_.priors_[body.size];
+  }
+
+  void forget() {
+    for (const PlacedBody& body : looked_at_) {
+      known_[body.size][body.cell] = 0;
+      alone_[body.size].joint[body.cell] = kUnknown;
+      for (std::vector<double>& view : alone_[body.size].views) view[body.cell] = kUnknown;
+    }
+    looked_at_.clear();
+  }
+
+  const JointSearch& s_;
+  const GroundGrid& grid_;
+  const AllEvidence& evidence_;
+  std::span<const double> baselines_;
+  AllEvidence rest_;                      ///< what nobody accounts for
+  LevelLikelihood now_;                   ///< by the rest
+  std::vector<double> surface_;           ///< now_, smoothed
+  AllEvidence own_;                       ///< of who is being placed: what the others leave
+  std::vector<LevelLikelihood> alone_;    ///< [size]: by own_, where known_
+  std::vector<std::vector<char>> known_;  ///< [size][cell]
+  std::vector<PlacedBody> looked_at_;     ///< where known_
+  std::vector<double> alone_surface_ = alone_.front().joint;
+  std::vector<Entry> people_;
+  std::vector<CellIndex> moved_;  ///< cells that changes have touched
+};
+
+JointSearch::JointSearch(const StateGrid& grid, const GridSearch& search,
+                         std::span<const Neighbour> neighbours, std::span<const Neighbour> rivals,
+                         const Options& options)
+    : grid_(&grid), search_(&search), neighbours_(neighbours), rivals_(rivals), options_(options) {
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) ring_.push_back({column, row, 0});
+  }
+  for (const TemplateLayer& size : search.sizes()) {
+    const double z = (size.scale - 1) / options.size_sigma;
+    priors_.push_back(-0.5 * z * z);
+  }
+}
+
+Eigen::Vector2d JointSearch::position(CellIndex cell) const {
+  return grid_->position(grid_->levels() - 1, cell);
+}
+
+std::vector<CellIndex> JointSearch::around(CellIndex cell, std::span<const Neighbour> which) const {
+  const GroundGrid& grid = grid_->finest();
+  const int column = static_cast<int>(cell) % grid.columns;
+  const int row = static_cast<int>(cell) / grid.columns;
+  std::vector<CellIndex> cells;
+  for (const Neighbour& n : which) {
+    const int c = column + n.columns, r = row + n.rows;
+    if (c < 0 || r < 0 || c >= grid.columns || r >= grid.rows) continue;
+    cells.push_back(static_cast<CellIndex>(r * grid.columns + c));
+  }
+  return cells;
+}
+
+std::vector<FoundPerson> JointSearch::infer(const AllEvidence& evidence,
+                                            const SearchResult& first) const {
+  Scenario scenario(*this, evidence, first);
+  scenario.accept();
+  for (int round = 0; round < options_.rounds; ++round) {
+    const bool moved = scenario.judge_again(true);
+    if (!moved) break;
+    scenario.take_away_again();
+    scenario.accept();
+  }
+  scenario.judge_again(false);
+  return std::move(scenario).people();
+}
+
+}  // namespace plaza

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plugins/detectors/hierarchical-grid/grid_search.h"
+#include "plugins/detectors/hierarchical-grid/likelihood_surface.h"
+
+namespace plaza {
+
+/// What a place is judged by: the smoothed log-likelihood over that of an empty place, per view
+/// that told. Sums grow with the views that look at a place whether they agree or not.
+double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level);
+
+/// Somebody in a cell of the finest level, judged by the evidence that nobody else accounts for.
+struct FoundPerson {
+  PlacedBody body;
+  double score = 0;  ///< smoothed log-likelihood over that of an empty place, per view
+  Peak peak;         ///< of the smoothed likelihood
+  std::vector<double>
+      views;  ///< [camera]: log-likelihood over that of an empty place; NaN: unknown
+};
+
+/// People inferred together: evidence that one accounts for can't feed another.
+///
+/// Greedily, whoever the remaining evidence speaks for most is accepted and what they account for
+/// is taken away (Modality::explain), until nobody scores enough. Then everybody is judged again
+/// by what all the others leave: moves to the best place within reach, or goes when that doesn't
+/// score enough any more; then others may be accepted again. So for some rounds, or until nothing
+/// changes.
+class JointSearch {
+ public:
+  struct Options {
+    double min_score = 0;
+    int most = 1;        ///< people
+    int rounds = 0;      ///< of judging again; 0: what is accepted stays
+    double reach_m = 0;  ///< how far somebody moves in a round
+    double max_sigma_m = 1;
+    double size_sigma = 1;  ///< of a body's size relative to the model's own
+  };
+  /// `neighbours`: that the likelihood is smoothed over; `rivals`: cells so near to somebody are
+  /// nobody else's. Everything must outlive the search.
+  JointSearch(const StateGrid& grid, const GridSearch& search,
+              std::span<const Neighbour> neighbours, std::span<const Neighbour> rivals,
+              const Options& options);
+
+  /// `first`: what search() gave for this evidence. Best first. Thread-safe.
+  std::vector<FoundPerson> infer(const AllEvidence& evidence, const SearchResult& first) const;
+
+ private:
+  class Scenario;
+
+  Eigen::Vector2d position(CellIndex cell) const;
+  std::vector<CellIndex> around(CellIndex cell, std::span<const Neighbour> which) const;
+
+  const StateGrid* grid_;
+  const GridSearch* search_;
+  std::span<const Neighbour> neighbours_, rivals_;
+  std::vector<Neighbour> ring_;  ///< the cell itself and the eight around it
+  std::vector<double> priors_;   ///< [size]: logarithm, 0 for the model's own
+  Options options_;
+};
+
+}  // namespace plaza
