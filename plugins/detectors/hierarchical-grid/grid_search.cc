@@ -123,30 +123,32 @@ std::vector<CellIndex> GridSearch::wanted_cells(std::size_t level,
   return wanted;
 }
 
-void GridSearch::evaluate(std::size_t layer, std::span<const CellIndex> wanted,
-                          const AllEvidence& evidence, std::vector<Values>& values) const {
+std::vector<GridSearch::Values> GridSearch::evaluate(std::size_t layer,
+                                                     std::span<const CellIndex> wanted,
+                                                     const AllEvidence& evidence) const {
   struct Task {
     std::size_t pair = 0;
     std::size_t begin = 0, end = 0;  ///< of the camera's lists below
   };
   std::vector<std::vector<std::uint32_t>> which(cameras_);
-  std::vector<std::vector<CellIndex>> cells(cameras_);
+  std::vector<std::vector<std::size_t>> places(cameras_);  // of their cells in `wanted`
   std::vector<Task> tasks;
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
-    for (const CellIndex cell : wanted) {
-      const std::uint32_t index = template_of_cell_[layer][camera][cell];
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const std::uint32_t index = template_of_cell_[layer][camera][wanted[i]];
       if (index == kUnseen) continue;
       which[camera].push_back(index);
-      cells[camera].push_back(cell);
+      places[camera].push_back(i);
     }
     for (std::size_t w = 0; w < witnesses_.size(); ++w) {
       if (!evidence[w][camera]) continue;
-      for (std::size_t begin = 0; begin < cells[camera].size(); begin += kTemplatesPerTask) {
+      for (std::size_t begin = 0; begin < which[camera].size(); begin += kTemplatesPerTask) {
         tasks.push_back({w * cameras_ + camera, begin,
-                         std::min(begin + kTemplatesPerTask, cells[camera].size())});
+                         std::min(begin + kTemplatesPerTask, which[camera].size())});
       }
     }
   }
+  std::vector<Values> values(witnesses_.size() * cameras_, Values(wanted.size(), kUnknown));
   parallel_for(tasks.size(), [&](std::size_t t) {
     const Task& task = tasks[t];
     const std::size_t w = task.pair / cameras_, camera = task.pair % cameras_;
@@ -155,9 +157,10 @@ void GridSearch::evaluate(std::size_t layer, std::span<const CellIndex> wanted,
         *evidence[w][camera], *batches_[layer][task.pair],
         std::span(which[camera]).subspan(task.begin, task.end - task.begin), found);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      values[task.pair][cells[camera][task.begin + i]] = found[i];
+      values[task.pair][places[camera][task.begin + i]] = found[i];
     }
   });
+  return values;
 }
 
 SearchResult GridSearch::search(const AllEvidence& evidence) const {
@@ -168,8 +171,7 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
   for (std::size_t level = 0; level < grid_->levels(); ++level) {
     const LevelLikelihood* parents = level > 0 ? &result.levels.back() : nullptr;
     const std::vector<CellIndex> wanted = wanted_cells(level, parents);
-    std::vector<Values> values(pairs, Values(grid_->size(level), kUnknown));
-    evaluate(level, wanted, evidence, values);
+    const std::vector<Values> values = evaluate(level, wanted, evidence);
     result.evaluated += wanted.size();
     for (std::size_t pair = 0; pair < pairs; ++pair) {
       if (!std::isfinite(baselines[pair])) baselines[pair] = median_of_known(values[pair]);
@@ -187,8 +189,8 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
         here.per_view[cell] = parents->per_view[parent];
       }
     }
-    for (const CellIndex cell : wanted) {
-      here.evaluated[cell] = combine(values, baselines, cell, here) ? 1 : 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      combine(values, i, baselines, wanted[i], here);
     }
     result.levels.push_back(std::move(here));
   }
@@ -196,8 +198,9 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
   return result;
 }
 
-bool GridSearch::combine(std::span<const Values> values, std::span<const double> baselines,
-                         CellIndex cell, LevelLikelihood& level) const {
+void GridSearch::combine(std::span<const Values> values, std::size_t index,
+                         std::span<const double> baselines, CellIndex cell,
+                         LevelLikelihood& level) const {
   double sum = 0;
   int told = 0;
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
@@ -205,8 +208,9 @@ bool GridSearch::combine(std::span<const Values> values, std::span<const double>
     bool view_told = false;
     for (std::size_t w = 0; w < witnesses_.size(); ++w) {
       const std::size_t pair = w * cameras_ + camera;
-      if (!std::isfinite(values[pair][cell])) continue;
-      view += witnesses_[w].weight * (values[pair][cell] - baselines[pair]);
+      const double value = values[pair][index];
+      if (!std::isfinite(value)) continue;
+      view += witnesses_[w].weight * (value - baselines[pair]);
       view_told = true;
     }
     level.views[camera][cell] = view_told ? view : kUnknown;
@@ -216,18 +220,14 @@ bool GridSearch::combine(std::span<const Values> values, std::span<const double>
   }
   level.joint[cell] = told > 0 ? sum : kUnknown;
   level.per_view[cell] = told > 0 ? sum / told : kUnknown;
-  return told > 0;
+  level.evaluated[cell] = told > 0 ? 1 : 0;
 }
 
 void GridSearch::judge(const AllEvidence& evidence, std::span<const double> baselines,
                        std::size_t size, std::span<const CellIndex> cells,
                        LevelLikelihood& finest) const {
-  const std::size_t level = grid_->levels() - 1;
-  std::vector<Values> values(witnesses_.size() * cameras_, Values(grid_->size(level), kUnknown));
-  evaluate(level + size, cells, evidence, values);
-  for (const CellIndex cell : cells) {
-    finest.evaluated[cell] = combine(values, baselines, cell, finest) ? 1 : 0;
-  }
+  const std::vector<Values> values = evaluate(grid_->levels() - 1 + size, cells, evidence);
+  for (std::size_t i = 0; i < cells.size(); ++i) combine(values, i, baselines, cells[i], finest);
 }
 
 AllEvidence GridSearch::explain(const AllEvidence& evidence,

@@ -81,13 +81,13 @@ class GridSearch {
   bool touch(CellIndex a, CellIndex b) const;
 
  private:
-  using Values = std::vector<double>;  ///< [cell]
-  /// Evaluates `wanted` cells: values[witness * cameras + camera][cell].
-  void evaluate(std::size_t layer, std::span<const CellIndex> wanted, const AllEvidence& evidence,
-                std::vector<Values>& values) const;
-  /// What the values of all pairs say of one cell; returns false when nothing can tell.
-  bool combine(std::span<const Values> values, std::span<const double> baselines, CellIndex cell,
-               LevelLikelihood& level) const;
+  using Values = std::vector<double>;
+  /// Evaluates `wanted` cells: [witness * cameras + camera][index in `wanted`], NaN where unknown.
+  std::vector<Values> evaluate(std::size_t layer, std::span<const CellIndex> wanted,
+                               const AllEvidence& evidence) const;
+  /// Writes to `level` what the values of all pairs at `index` say of a cell.
+  void combine(std::span<const Values> values, std::size_t index, std::span<const double> baselines,
+               CellIndex cell, LevelLikelihood& level) const;
   std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
 
   const StateGrid* grid_;

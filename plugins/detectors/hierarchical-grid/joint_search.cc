@@ -41,7 +41,8 @@ class JointSearch::Scenario {
         now_(first.levels.back()),
         surface_(smoothed(grid_, now_.joint, search.neighbours_)),
         alone_(search.priors_.size(), unknown_like(now_)),
-        known_(search.priors_.size(), std::vector<char>(surface_.size(), 0)) {}
+        known_(search.priors_.size(), std::vector<char>(surface_.size(), 0)),
+        moved_(surface_.size(), 0) {}
 
   /// Whether anybody was accepted.
   bool accept() {
@@ -91,13 +92,19 @@ class JointSearch::Scenario {
   /// What is left when everybody has moved.
   void take_away_again() {
     rest_ = s_.search_->explain(evidence_, bodies_of_others(people_.size()));
-    refresh(moved_);
-    moved_.clear();
+    std::vector<CellIndex> cells;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      if (moved_[i] != 0) cells.push_back(static_cast<CellIndex>(i));
+    }
+    refresh(cells);
+    std::fill(moved_.begin(), moved_.end(), 0);
   }
 
   std::vector<FoundPerson> people() && {
     std::vector<FoundPerson> out;
-    for (Entry& entry : people_) out.push_back(std::move(entry.person));
+    for (Entry& entry : people_) {
+      if (entry.person.score >= s_.options_.min_score) out.push_back(std::move(entry.person));
+    }
     std::stable_sort(out.begin(), out.end(),
                      [](const FoundPerson& a, const FoundPerson& b) { return a.score > b.score; });
     return out;
@@ -154,10 +161,7 @@ class JointSearch::Scenario {
     for (Entry& entry : people_) {
       entry.stale = entry.stale || s_.search_->touch(cell, entry.person.body.cell);
     }
-    const std::vector<CellIndex> cells = s_.search_->touching(cell);
-    moved_.insert(moved_.end(), cells.begin(), cells.end());
-    std::sort(moved_.begin(), moved_.end());
-    moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+    for (const CellIndex other : s_.search_->touching(cell)) moved_[other] = 1;
   }
 
   std::vector<PlacedBody> bodies_of_others(std::size_t k) const {
@@ -186,20 +190,18 @@ class JointSearch::Scenario {
     }
     const double most = value(person.body);
     const LevelLikelihood& level = alone_[person.body.size];
-    person.score = std::isfinite(most) ? score_of(person.body.cell, most, level) : 0;
-    for (const CellIndex cell : s_.around(person.body.cell, s_.ring_)) {
-      alone_surface_[cell] = value({cell, person.body.size});
-    }
+    person.score = score_of(person.body.cell, most, level);  // NaN where nothing can tell
+    const std::vector<CellIndex> ring = s_.around(person.body.cell, s_.ring_);
+    look_at(ring, person.body.size);
+    for (const CellIndex cell : ring) alone_surface_[cell] = value({cell, person.body.size});
     person.peak = peak_at(grid_, alone_surface_, person.body.cell, s_.options_.max_sigma_m);
-    for (const CellIndex cell : s_.around(person.body.cell, s_.ring_)) {
-      alone_surface_[cell] = kUnknown;
-    }
+    for (const CellIndex cell : ring) alone_surface_[cell] = kUnknown;
     person.views.clear();
     for (const std::vector<double>& view : level.views) {
       person.views.push_back(view[person.body.cell]);
     }
     forget();
-    return std::isfinite(most) && person.score >= s_.options_.min_score;
+    return person.score >= s_.options_.min_score;
   }
 
   /// The summit next to a body, uphill, at most options.reach_m away.
@@ -208,7 +210,9 @@ class JointSearch::Scenario {
     const double reach_m = s_.options_.reach_m;
     while (true) {
       PlacedBody best = here;
-      for (const CellIndex cell : s_.around(here.cell, s_.ring_)) {
+      const std::vector<CellIndex> ring = s_.around(here.cell, s_.ring_);
+      look_at(ring, here.size);
+      for (const CellIndex cell : ring) {
         const PlacedBody next{cell, here.size};
         if (!(value(next) > value(best)) || blocked(cell, k)) continue;
         if ((s_.position(cell) - s_.position(start.cell)).norm() > reach_m) continue;
@@ -221,18 +225,24 @@ class JointSearch::Scenario {
 
   /// Of a place, by one's own evidence, smoothed, with the prior of the size; NaN: unknown.
   double value(const PlacedBody& body) {
-    std::vector<char>& known = known_[body.size];
-    std::vector<CellIndex> missing;
-    for (const CellIndex cell : s_.around(body.cell, s_.neighbours_)) {
-      if (known[cell] == 0) missing.push_back(cell);
-      known[cell] = 1;
-    }
-    if (!missing.empty()) {
-      s_.search_->judge(own_, baselines_, body.size, missing, alone_[body.size]);
-      for (const CellIndex cell : missing) looked_at_.push_back({cell, body.size});
-    }
+    const CellIndex cell[] = {body.cell};
+    look_at(cell, body.size);
     return smoothed_at(grid_, alone_[body.size].joint, s_.neighbours_, body.cell) +
            s_.priors_[body.size];
+  }
+
+  /// Judges what the values of these cells need and isn't known yet, all at once.
+  void look_at(std::span<const CellIndex> cells, std::size_t size) {
+    std::vector<CellIndex> missing;
+    for (const CellIndex cell : cells) {
+      for (const CellIndex other : s_.around(cell, s_.neighbours_)) {
+        if (known_[size][other] == 0) missing.push_back(other);
+        known_[size][other] = 1;
+      }
+    }
+    if (missing.empty()) return;
+    s_.search_->judge(own_, baselines_, size, missing, alone_[size]);
+    for (const CellIndex cell : missing) looked_at_.push_back({cell, size});
   }
 
   void forget() {
@@ -257,7 +267,7 @@ class JointSearch::Scenario {
   std::vector<PlacedBody> looked_at_;     ///< where known_
   std::vector<double> alone_surface_ = alone_.front().joint;
   std::vector<Entry> people_;
-  std::vector<CellIndex> moved_;  ///< cells that changes have touched
+  std::vector<char> moved_;  ///< [cell]: whether a change has touched it
 };
 
 JointSearch::JointSearch(const StateGrid& grid, const GridSearch& search,

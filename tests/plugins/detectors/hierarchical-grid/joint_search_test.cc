@@ -95,8 +95,8 @@ TEST(JointSearch, ACrowdIsFoundWhereEachAloneIsNot) {
 }
 
 TEST(JointSearch, JudgingAgainMendsWhatWasAcceptedTooSoon) {
-  const Errors once = errors_in_crowds(options_of(Inference::kGreedy, 0), 2);
-  const Errors again = errors_in_crowds(options_of(Inference::kGreedy, 3), 2);
+  const Errors once = errors_in_crowds(options_of(Inference::kGreedy, 0), 3);
+  const Errors again = errors_in_crowds(options_of(Inference::kGreedy, 3), 3);
   EXPECT_LT(again.all(), once.all());
 }
 
