@@ -76,7 +76,7 @@ class GridSearch {
   /// The evidence without what people in these cells of the finest level account for.
   AllEvidence explain(const AllEvidence& evidence, std::span<const PlacedBody> people) const;
   /// Cells of the finest level, rising, whose people could share evidence with somebody in `cell`:
-  /// their silhouettes' boxes, grown by a quarter of their heights, meet in some view.
+  /// their silhouettes' boxes, grown by an eighth of their heights, meet in some view.
   std::vector<CellIndex> touching(CellIndex cell) const;
   bool touch(CellIndex a, CellIndex b) const;
 
