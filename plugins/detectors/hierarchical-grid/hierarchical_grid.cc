@@ -117,7 +117,9 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .unit("m")
       .at_least(0)
       .at_most(30)
-      .meaning("a maximum exceeds all cells so near to it; unset: the smoothing's gate, 3 sigma")
+      .meaning(
+          "a maximum exceeds all cells so near to it, the eight around in any case; unset: the "
+          "smoothing's gate, 3 sigma")
       .source("thesis 4.3.6: within the same neighbourhood");
   p.choice("inference", &Options::inference, {"independent", "greedy"})
       .meaning(
@@ -177,8 +179,7 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
       curve_(options.probability),
       grid_(make_grid(options, *context.scene)),
       neighbours_(gaussian_neighbours(grid_.finest(), options.smoothing_m)),
-      rivals_(gaussian_neighbours(grid_.finest(),
-                                  options.separation_m.value_or(3 * options.smoothing_m) / 3)),
+      rivals_(cells_around(grid_.finest(), options.separation_m.value_or(3 * options.smoothing_m))),
       hierarchy_(grid_, *scene_, options.sizes) {
   for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
 }

@@ -1,5 +1,6 @@
 #include "plugins/detectors/hierarchical-grid/state_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -59,6 +60,19 @@ std::vector<Neighbour> gaussian_neighbours(const GroundGrid& grid, double sigma_
   }
   for (Neighbour& n : neighbours) n.weight /= sum;
   return neighbours;
+}
+
+std::vector<Neighbour> cells_around(const GroundGrid& grid, double radius_m) {
+  std::vector<Neighbour> cells = gaussian_neighbours(grid, radius_m / 3);
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      const bool there = std::any_of(cells.begin(), cells.end(), [&](const Neighbour& n) {
+        return n.columns == column && n.rows == row;
+      });
+      if (!there) cells.push_back({column, row, 0});
+    }
+  }
+  return cells;
 }
 
 }  // namespace plaza

@@ -43,4 +43,8 @@ struct Neighbour {
 /// then column.
 std::vector<Neighbour> gaussian_neighbours(const GroundGrid& grid, double sigma_m);
 
+/// Cells at most `radius_m` away, and the eight around in any case, the cell itself included; the
+/// weights are of no use.
+std::vector<Neighbour> cells_around(const GroundGrid& grid, double radius_m);
+
 }  // namespace plaza

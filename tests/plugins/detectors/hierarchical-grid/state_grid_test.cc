@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -71,6 +72,23 @@ TEST(GaussianNeighbours, ReachThreeSigmaAndAddUpToOne) {
   EXPECT_FALSE(weights.contains({3, 3})) << "0.96 m";
   EXPECT_NEAR((weights[{1, 2}]) / own, std::exp(-(0.25 * 0.25 + 0.4 * 0.4) / (2 * 0.09)), 1e-12);
   EXPECT_EQ(gaussian_neighbours(grid, 0).size(), 1U) << "no smoothing, the cell alone";
+}
+
+TEST(CellsAround, AreTheEightAtLeast) {
+  const GroundGrid grid{.origin_m = {0, 0}, .step_m = {0.2, 0.5}, .columns = 9, .rows = 9};
+  const auto has = [](const std::vector<Neighbour>& cells, int columns, int rows) {
+    return std::count_if(cells.begin(), cells.end(), [&](const Neighbour& n) {
+      return n.columns == columns && n.rows == rows;
+    });
+  };
+  for (const double radius_m : {0.0, 0.1, 0.45}) {
+    const auto cells = cells_around(grid, radius_m);
+    for (int row = -1; row <= 1; ++row) {
+      for (int column = -1; column <= 1; ++column) EXPECT_EQ(has(cells, column, row), 1);
+    }
+    EXPECT_EQ(has(cells, 2, 0), radius_m > 0.4 ? 1 : 0);
+    EXPECT_EQ(has(cells, 0, 2), 0);
+  }
 }
 
 }  // namespace
