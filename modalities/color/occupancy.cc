@@ -25,9 +25,9 @@ Sums sums(std::span<const CountSpan> spans, const Countable& seen) {
     return static_cast<std::uint32_t>(counts[end] - counts[begin]);
   };
   const bool blind = !seen.blind.empty();
-  auto next = std::upper_bound(
-      seen.explained.begin(), seen.explained.end(), spans.front().begin,
-      [](std::uint32_t begin, const CountSpan& e) { return begin < e.end; });
+  auto next =
+      std::upper_bound(seen.explained.begin(), seen.explained.end(), spans.front().begin,
+                       [](std::uint32_t begin, const CountSpan& e) { return begin < e.end; });
   for (const CountSpan& s : spans) {
     sum.set += between(seen.foreground, s.begin, s.end);
     if (blind) sum.hidden += between(seen.blind, s.begin, s.end);
