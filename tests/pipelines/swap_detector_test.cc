@@ -11,29 +11,21 @@
 #include <string>
 #include <vector>
 
-#include "framework/plugin/loader.h"
 #include "framework/scene/scene_file.h"
 #include "tests/plugins/detectors/drawn_people.h"
 #include "tests/plugins/detectors/simulated_scene.h"
 #include "tests/support/blob_network.h"
 #include "tests/support/execution_fixture.h"
+#include "tests/support/real_registry.h"
 
 namespace plaza {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::real_registry;
 
 constexpr int kFrames = 3;
-
-const Registry& real_registry() {
-  static const Registry registry = [] {
-    Registry r;
-    load_plugins({fs::path(PLAZA_BINARY_DIR) / "lib/plaza/plugins"}, r);
-    return r;
-  }();
-  return registry;
-}
 
 /// Where the two people are in a frame, m.
 std::vector<Eigen::Vector2d> people_at(int frame) {

@@ -8,25 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "framework/plugin/loader.h"
 #include "framework/scene/scene_file.h"
 #include "framework/study/prepare.h"
 #include "plaza/core/error.h"
 #include "tests/support/execution_fixture.h"
+#include "tests/support/real_registry.h"
 
 namespace plaza {
 namespace {
 
 namespace fs = std::filesystem;
-
-const Registry& real_registry() {
-  static const Registry registry = [] {
-    Registry r;
-    load_plugins({fs::path(PLAZA_BINARY_DIR) / "lib/plaza/plugins"}, r);
-    return r;
-  }();
-  return registry;
-}
+using test::real_registry;
 
 std::vector<std::string> all_pipelines() {
   std::vector<std::string> names;
