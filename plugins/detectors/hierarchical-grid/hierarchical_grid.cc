@@ -182,6 +182,11 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
       rivals_(cells_around(grid_.finest(), options.separation_m.value_or(3 * options.smoothing_m))),
       hierarchy_(grid_, *scene_, options.sizes) {
   for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
+  if (options.inference == Inference::kGreedy && options.maxima == Maxima::kAll) {
+    refuse("/maxima",
+           "\"all\" needs \"inference\": \"independent\": who is inferred together is "
+           "no maximum of one surface");
+  }
 }
 
 void HierarchicalGrid::do_finish(std::int64_t /*seen*/) {

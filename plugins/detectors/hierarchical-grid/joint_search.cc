@@ -44,20 +44,16 @@ class JointSearch::Scenario {
         known_(search.priors_.size(), std::vector<char>(surface_.size(), 0)),
         moved_(surface_.size(), 0) {}
 
-  /// Whether anybody was accepted.
-  bool accept() {
-    bool any = false;
+  void accept() {
     while (people_.size() < static_cast<std::size_t>(s_.options_.most)) {
       const std::optional<CellIndex> best = best_cell();
       if (!best) break;
-      any = true;
       changed(*best);
       people_.emplace_back().person.body.cell = *best;
       const PlacedBody body[] = {people_.back().person.body};
       rest_ = s_.search_->explain(rest_, body);
       refresh(s_.search_->touching(*best));
     }
-    return any;
   }
 
   /// Whether anybody moved or went.
@@ -273,10 +269,12 @@ class JointSearch::Scenario {
 JointSearch::JointSearch(const StateGrid& grid, const GridSearch& search,
                          std::span<const Neighbour> neighbours, std::span<const Neighbour> rivals,
                          const Options& options)
-    : grid_(&grid), search_(&search), neighbours_(neighbours), rivals_(rivals), options_(options) {
-  for (int row = -1; row <= 1; ++row) {
-    for (int column = -1; column <= 1; ++column) ring_.push_back({column, row, 0});
-  }
+    : grid_(&grid),
+      search_(&search),
+      neighbours_(neighbours),
+      rivals_(rivals),
+      ring_(cells_around(grid.finest(), 0)),
+      options_(options) {
   for (const TemplateLayer& size : search.sizes()) {
     const double z = (size.scale - 1) / options.size_sigma;
     priors_.push_back(-0.5 * z * z);

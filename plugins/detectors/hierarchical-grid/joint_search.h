@@ -17,8 +17,8 @@ struct FoundPerson {
   PlacedBody body;
   double score = 0;  ///< smoothed log-likelihood over that of an empty place, per view
   Peak peak;         ///< of the smoothed likelihood
-  std::vector<double>
-      views;  ///< [camera]: log-likelihood over that of an empty place; NaN: unknown
+  /// [camera]: log-likelihood over that of an empty place; NaN: unknown
+  std::vector<double> views;
 };
 
 /// People inferred together: evidence that one accounts for can't feed another.

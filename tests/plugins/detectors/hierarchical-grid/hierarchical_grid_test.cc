@@ -214,6 +214,15 @@ TEST(HierarchicalGrid, ContradictionsAreRefused) {
   } catch (const UserError& e) {
     EXPECT_EQ(e.diagnostics().at(0).pointer, "/cells");
   }
+  options = Rig::defaults();
+  options.inference = HierarchicalGrid::Inference::kGreedy;
+  options.maxima = HierarchicalGrid::Maxima::kAll;
+  try {
+    (void)rig.make(options);
+    FAIL() << "all cells aren't people inferred together";
+  } catch (const UserError& e) {
+    EXPECT_EQ(e.diagnostics().at(0).pointer, "/maxima");
+  }
   BuildContext context = testing::context_of(small_scene(1));
   context.part_lists["shape"] = {
       {"shape", std::make_shared<Cylinder>(Cylinder::Options(), BuildContext())}};
