@@ -23,7 +23,7 @@ std::string exact_text(double value) {
   return {buffer.data(), end};
 }
 
-std::string better_text(Better better) {
+std::string better_word(Better better) {
   if (better == Better::kNeither) return "neither";
   return better == Better::kHigher ? "higher" : "lower";
 }
@@ -65,7 +65,7 @@ std::string results_csv(const StudyResults& results) {
       const MetricColumn& column = results.columns[c];
       csv += start + field(column.branch) + "," + field(column.section) + "," +
              field(column.metric.name) + "," + field(column.metric.unit) + "," +
-             better_text(column.metric.better) + "," + exact_text(*outcome.figures[c]) + ",\n";
+             better_word(column.metric.better) + "," + exact_text(*outcome.figures[c]) + ",\n";
     }
   }
   return csv;

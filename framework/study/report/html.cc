@@ -70,7 +70,7 @@ std::string results_html(const StudyResults& results) {
   return html;
 }
 
-std::string better_text(Better better) {
+std::string better_note(Better better) {
   if (better == Better::kNeither) return "";
   return better == Better::kHigher ? ", more is better" : ", less is better";
 }
@@ -84,7 +84,7 @@ std::string metric_html(const StudyResults& results, const std::vector<Compariso
   out << "<details" << (unfolded ? " open" : "") << "><summary>" << escaped(c.title())
       << "</summary><p class=\"quiet\">" << escaped(c.metric.meaning)
       << (c.metric.unit.empty() ? "" : " [" + escaped(c.metric.unit) + "]")
-      << better_text(c.metric.better) << "</p><div class=\"plots\">";
+      << better_note(c.metric.better) << "</p><div class=\"plots\">";
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
     if (study.axes[a].values.size() > 1) out << axis_plot(results, a, column);
   }

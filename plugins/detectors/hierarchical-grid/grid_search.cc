@@ -10,7 +10,6 @@
 namespace plaza {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
 constexpr double kReach = 0.125;  ///< of a box's height: how far a person's evidence may reach
 constexpr std::size_t kTemplatesPerTask = 256;  ///< templates that one task matches

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "plugins/detectors/hierarchical-grid/template_hierarchy.h"
 
 namespace plaza {
+
+/// The log-likelihood of what nothing could tell about.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A modality with its weight in the sum of log-likelihoods.
 struct Witness {
