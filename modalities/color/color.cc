@@ -32,7 +32,7 @@ std::shared_ptr<const ColorEvidence::Blind> occluded(const Scene& scene, const C
     }
     cv::fillPoly(blind->mask, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255));
   }
-  if (!blind->mask.empty()) blind->counts = color::RowCounts(blind->mask);
+  if (!blind->mask.empty()) blind->counts = color::AreaCounts(blind->mask);
   return blind;
 }
 

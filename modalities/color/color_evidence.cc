@@ -45,10 +45,10 @@ ColorEvidence::ColorEvidence(State state, cv::Mat image, Segmentation segmentati
     counted = segmentation_.mask.clone();
     counted.setTo(cv::Scalar(0), blind_->mask);
   }
-  counts_ = std::make_shared<RowCounts>(counted);
+  counts_ = std::make_shared<AreaCounts>(counted);
 }
 
-ColorEvidence::ColorEvidence(const ColorEvidence& other, std::vector<CountSpan> explained)
+ColorEvidence::ColorEvidence(const ColorEvidence& other, Patches explained)
     : state_(other.state_),
       image_(other.image_),
       segmentation_(other.segmentation_),
@@ -88,13 +88,15 @@ std::optional<double> ColorEvidence::occupancy(const SpanTemplates& templates, s
 
 std::shared_ptr<const ColorEvidence> ColorEvidence::without(
     const SpanTemplates& templates, std::span<const std::uint32_t> which) const {
-  std::vector<CountSpan> spans = explained_;
+  Patches patches = explained_;
   for (const std::uint32_t index : which) {
     const SpanTemplate& t = templates.at(index);
-    const auto near = templates.spans(t.near, t.outer);  // with the gap: arms are the person's too
-    spans.insert(spans.end(), near.begin(), near.end());
+    if (t.near_box.empty()) continue;
+    // with the gap: arms are the person's too
+    patches.push_back(std::make_shared<const ExplainedPatch>(
+        templates.runs(t.near, t.outer), t.near_box, segmentation_.mask, blind_->mask, patches));
   }
-  return std::shared_ptr<const ColorEvidence>(new ColorEvidence(*this, united(std::move(spans))));
+  return std::shared_ptr<const ColorEvidence>(new ColorEvidence(*this, std::move(patches)));
 }
 
 }  // namespace plaza::color

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "modalities/color/background.h"
+#include "modalities/color/explained_patch.h"
 #include "modalities/color/occupancy.h"
 #include "modalities/color/segmenter.h"
 #include "plaza/data/evidence.h"
@@ -20,7 +21,7 @@ class ColorEvidence final : public Evidence {
   /// Pixels that count nowhere: behind static occluders.
   struct Blind {
     cv::Mat mask;  ///< 8-bit, 0 or 255; empty: no pixel
-    RowCounts counts;
+    AreaCounts counts;
   };
   enum class State {
     kUsable,
@@ -45,20 +46,21 @@ class ColorEvidence final : public Evidence {
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                   double least_visible) const;
   /// The evidence without the foreground inside templates and their gaps, whose pixels count
-  /// nowhere from then on. Copies no pixel.
+  /// nowhere from then on. Copies no image.
   std::shared_ptr<const ColorEvidence> without(const SpanTemplates& templates,
                                                std::span<const std::uint32_t> which) const;
 
  private:
-  ColorEvidence(const ColorEvidence& other, std::vector<CountSpan> explained);
+  using Patches = std::vector<std::shared_ptr<const ExplainedPatch>>;
+  ColorEvidence(const ColorEvidence& other, Patches explained);
 
   State state_;
   cv::Mat image_;
   Segmentation segmentation_;
   std::shared_ptr<const Background> background_;
   std::shared_ptr<const Blind> blind_;
-  std::shared_ptr<const RowCounts> counts_;  ///< of foreground, without what is blind
-  std::vector<CountSpan> explained_;         ///< see united()
+  std::shared_ptr<const AreaCounts> counts_;  ///< of foreground, without what is blind
+  Patches explained_;                         ///< in the order in which they were accepted
   mutable std::once_flag lab_once_;
   mutable cv::Mat lab_;
 };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
+
+#include "modalities/color/explained_patch.h"
 
 namespace plaza::color {
 namespace {
@@ -13,54 +16,92 @@ std::uint32_t area(const std::vector<RowSpan>& spans) {
   return sum;
 }
 
-struct Sums {
-  std::uint32_t set = 0;     ///< foreground that counts
-  std::uint32_t hidden = 0;  ///< pixels that don't count
-};
+cv::Rect box_of(const std::vector<RowSpan>& spans) {
+  if (spans.empty()) return {};
+  int left = spans.front().begin, right = spans.front().end;
+  for (const RowSpan& s : spans) {
+    left = std::min(left, s.begin);
+    right = std::max(right, s.end);
+  }
+  return {left, spans.front().row, right - left, spans.back().row - spans.front().row + 1};
+}
 
-Sums sums(std::span<const CountSpan> spans, const Countable& seen) {
-  Sums sum;
-  if (spans.empty()) return sum;
-  const auto between = [](const RowCounts& counts, std::uint32_t begin, std::uint32_t end) {
-    return static_cast<std::uint32_t>(counts[end] - counts[begin]);
-  };
-  const bool blind = !seen.blind.empty();
-  auto next =
-      std::upper_bound(seen.explained.begin(), seen.explained.end(), spans.front().begin,
-                       [](std::uint32_t begin, const CountSpan& e) { return begin < e.end; });
-  for (const CountSpan& s : spans) {
-    sum.set += between(seen.foreground, s.begin, s.end);
-    if (blind) sum.hidden += between(seen.blind, s.begin, s.end);
-    while (next != seen.explained.end() && next->end <= s.begin) ++next;
-    for (auto e = next; e != seen.explained.end() && e->begin < s.end; ++e) {
-      const std::uint32_t begin = std::max(e->begin, s.begin), end = std::min(e->end, s.end);
-      sum.set -= between(seen.foreground, begin, end);
-      sum.hidden += end - begin;
-      if (blind) sum.hidden -= between(seen.blind, begin, end);
-    }
+std::uint32_t count_in(std::span<const BoundaryRun> runs, const AreaCounts& counts) {
+  const std::uint32_t* const at = counts.data();
+  const std::size_t stride = counts.stride();
+  std::uint32_t sum = 0;
+  for (const BoundaryRun& r : runs) {
+    sum += at[r.plus_row * stride + r.x] - at[r.minus_row * stride + r.x];
   }
   return sum;
 }
 
-}  // namespace
-
-RowCounts::RowCounts(const cv::Mat& mask) {
-  if (mask.cols > 65535) throw std::invalid_argument("the mask is too wide to be counted");
-  counts_.resize((static_cast<std::size_t>(mask.cols) + 1) * static_cast<std::size_t>(mask.rows));
-  recount(mask, 0, mask.rows);
+Counts counts_of(std::span<const BoundaryRun> runs, const Countable& seen, const cv::Rect& box) {
+  Counts counts;
+  counts.set = count_in(runs, seen.foreground);
+  if (!seen.blind.empty()) counts.hidden = count_in(runs, seen.blind);
+  for (const auto& patch : seen.explained) {
+    if ((patch->box() & box).empty()) continue;
+    const Counts away = patch->count(runs);
+    counts.set -= away.set;
+    counts.hidden += away.hidden;
+  }
+  return counts;
 }
 
-void RowCounts::recount(const cv::Mat& mask, int first_row, int end_row) {
-  for (int y = first_row; y < end_row; ++y) {
+}  // namespace
+
+AreaCounts::AreaCounts(const cv::Mat& mask) {
+  if (mask.cols > 65535 || mask.rows > 65535) {
+    throw std::invalid_argument("the mask is too large to be counted");
+  }
+  stride_ = static_cast<std::size_t>(mask.cols) + 1;
+  counts_.resize(stride_ * (static_cast<std::size_t>(mask.rows) + 1));
+  for (int y = 0; y < mask.rows; ++y) {
     const auto* const in = mask.ptr<uchar>(y);
-    std::uint16_t* const out = counts_.data() + index(y, 0, mask.cols);
-    unsigned count = 0;
-    out[0] = 0;
+    const std::uint32_t* const above = counts_.data() + static_cast<std::size_t>(y) * stride_;
+    std::uint32_t* const out = counts_.data() + (static_cast<std::size_t>(y) + 1) * stride_;
+    std::uint32_t row = 0;
     for (int x = 0; x < mask.cols; ++x) {
-      count += in[x] != 0 ? 1U : 0U;
-      out[x + 1] = static_cast<std::uint16_t>(count);
+      row += in[x] != 0 ? 1U : 0U;
+      out[x + 1] = above[x + 1] + row;
     }
   }
+}
+
+std::vector<BoundaryRun> boundary_of(const std::vector<RowSpan>& spans) {
+  struct Step {
+    std::int32_t x, row;
+    bool right;
+    auto operator<=>(const Step&) const = default;
+  };
+  std::vector<Step> steps;
+  for (const RowSpan& s : spans) {
+    steps.push_back({s.begin, s.row, false});
+    steps.push_back({s.end, s.row, true});
+  }
+  // pieces of one column one below the other
+  std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) {
+    return std::tie(a.x, a.right, a.row) < std::tie(b.x, b.right, b.row);
+  });
+  std::vector<BoundaryRun> runs;
+  for (std::size_t i = 0; i < steps.size();) {
+    std::size_t end = i + 1;
+    while (end < steps.size() && steps[end].x == steps[i].x && steps[end].right == steps[i].right &&
+           steps[end].row == steps[end - 1].row + 1) {
+      ++end;
+    }
+    const auto top = static_cast<std::uint16_t>(steps[i].row);
+    const auto bottom = static_cast<std::uint16_t>(steps[end - 1].row + 1);
+    const auto x = static_cast<std::uint16_t>(steps[i].x);
+    runs.push_back(steps[i].right ? BoundaryRun{x, bottom, top} : BoundaryRun{x, top, bottom});
+    i = end;
+  }
+  std::sort(runs.begin(), runs.end(), [](const BoundaryRun& a, const BoundaryRun& b) {
+    return std::tuple(std::min(a.plus_row, a.minus_row), a.x, a.plus_row) <
+           std::tuple(std::min(b.plus_row, b.minus_row), b.x, b.plus_row);
+  });
+  return runs;
 }
 
 std::vector<RowSpan> dilated(const std::vector<RowSpan>& spans, int radius, cv::Size image) {
@@ -92,16 +133,14 @@ std::vector<RowSpan> dilated(const std::vector<RowSpan>& spans, int radius, cv::
 }
 
 std::uint32_t SpanTemplates::append(const std::vector<RowSpan>& spans) {
-  for (const RowSpan& s : spans) {
-    spans_.push_back({RowCounts::index(s.row, s.begin, image_.width),
-                      RowCounts::index(s.row, s.end, image_.width)});
-  }
-  return static_cast<std::uint32_t>(spans_.size());
+  const std::vector<BoundaryRun> runs = boundary_of(spans);
+  runs_.insert(runs_.end(), runs.begin(), runs.end());
+  return static_cast<std::uint32_t>(runs_.size());
 }
 
 void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
   SpanTemplate t;
-  t.inner = static_cast<std::uint32_t>(spans_.size());
+  t.inner = static_cast<std::uint32_t>(runs_.size());
   t.near = t.outer = append(silhouette.spans);
   t.inner_area = area(silhouette.spans);
   if (t.inner_area > 0) {
@@ -116,38 +155,37 @@ void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
     append(all);
     t.near_area = area(near);
     t.outer_area = area(all);
+    t.near_box = box_of(near);
+    t.outer_box = box_of(all);
     t.full_area = static_cast<float>(t.inner_area / std::max(silhouette.inside_share, 1e-9));
   }
-  t.end = static_cast<std::uint32_t>(spans_.size());
+  t.end = static_cast<std::uint32_t>(runs_.size());
   templates_.push_back(t);
 }
 
-std::vector<CountSpan> united(std::vector<CountSpan> spans) {
-  std::sort(spans.begin(), spans.end(),
-            [](const CountSpan& a, const CountSpan& b) { return a.begin < b.begin; });
-  std::vector<CountSpan> out;
-  for (const CountSpan& s : spans) {
-    if (!out.empty() && s.begin <= out.back().end) {
-      out.back().end = std::max(out.back().end, s.end);
-    } else {
-      out.push_back(s);
-    }
+TemplateCounts count(const SpanTemplates& templates, std::size_t index, const Countable& seen) {
+  const SpanTemplate& t = templates.at(index);
+  return {counts_of(templates.runs(t.inner, t.near), seen, t.outer_box),
+          counts_of(templates.runs(t.near, t.outer), seen, t.outer_box),
+          counts_of(templates.runs(t.outer, t.end), seen, t.outer_box)};
+}
+
+std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts& counts,
+                                double least_visible) {
+  const std::uint32_t inside = shape.inner_area - counts.inner.hidden;
+  if (inside == 0 || inside < least_visible * static_cast<double>(shape.full_area)) {
+    return std::nullopt;
   }
-  return out;
+  const double share = static_cast<double>(counts.inner.set) / inside;
+  const std::uint32_t ring =
+      shape.outer_area - shape.near_area - (counts.outer.hidden - counts.near.hidden);
+  if (ring == 0) return share;
+  return share - static_cast<double>(counts.outer.set - counts.near.set) / ring;
 }
 
 std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                 const Countable& seen, double least_visible) {
-  const SpanTemplate& t = templates.at(index);
-  const Sums in = sums(templates.spans(t.inner, t.near), seen);
-  const std::uint32_t inside = t.inner_area - in.hidden;
-  if (inside == 0 || inside < least_visible * static_cast<double>(t.full_area)) return std::nullopt;
-  const Sums near = sums(templates.spans(t.near, t.outer), seen);
-  const Sums outer = sums(templates.spans(t.outer, t.end), seen);
-  const double share = static_cast<double>(in.set) / inside;
-  const std::uint32_t ring = t.outer_area - t.near_area - (outer.hidden - near.hidden);
-  if (ring == 0) return share;
-  return share - static_cast<double>(outer.set - near.set) / ring;
+  return occupancy(templates.at(index), count(templates, index, seen), least_visible);
 }
 
 }  // namespace plaza::color

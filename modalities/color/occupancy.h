@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
@@ -11,32 +12,38 @@
 
 namespace plaza::color {
 
-/// Running counts along the rows of a mask: the number of set pixels in any span of a row is one
-/// difference. Empty: of no image.
-class RowCounts {
+class ExplainedPatch;
+
+/// Running counts over the rows and columns of a mask: at (x, y) the number of set pixels left of x
+/// and above y, so that what lies between two columns and two rows is four look-ups. Modulo 2^32,
+/// as are all differences of them. Empty: of no image.
+class AreaCounts {
  public:
-  RowCounts() = default;
-  /// Of an 8-bit mask, 0 or not 0, at most 65535 wide.
-  explicit RowCounts(const cv::Mat& mask);
+  AreaCounts() = default;
+  /// Of an 8-bit mask, 0 or not 0, at most 65535 wide and high.
+  explicit AreaCounts(const cv::Mat& mask);
 
   bool empty() const { return counts_.empty(); }
-  /// Index of the count of pixels left of (row, x), 0 <= x <= width.
-  static std::uint32_t index(std::int32_t row, std::int32_t x, int width) {
-    return static_cast<std::uint32_t>(row) * (static_cast<std::uint32_t>(width) + 1) +
-           static_cast<std::uint32_t>(x);
-  }
-  std::uint16_t operator[](std::uint32_t i) const { return counts_[i]; }
-  /// Counts some rows anew, after `mask` changed there.
-  void recount(const cv::Mat& mask, int first_row, int end_row);
+  std::size_t stride() const { return stride_; }
+  /// [y * stride() + x], 0 <= x <= width, 0 <= y <= height.
+  const std::uint32_t* data() const { return counts_.data(); }
+  std::size_t size() const { return counts_.size(); }
 
  private:
-  std::vector<std::uint16_t> counts_;
+  std::vector<std::uint32_t> counts_;
+  std::size_t stride_ = 0;
 };
 
-/// A span of pixels as two indices of RowCounts.
-struct CountSpan {
-  std::uint32_t begin = 0, end = 0;
+/// A piece of a region's boundary along a column: the running counts at (x, plus_row) less those at
+/// (x, minus_row) are its part of the region's count. Right boundaries have plus_row > minus_row,
+/// left ones the other way round. Silhouettes are upright, so that a few dozen of these stand for
+/// hundreds of rows.
+struct BoundaryRun {
+  std::uint16_t x = 0, plus_row = 0, minus_row = 0;
 };
+
+/// The boundary of spans that don't overlap, from top to bottom.
+std::vector<BoundaryRun> boundary_of(const std::vector<RowSpan>& spans);
 
 /// How the ring around a silhouette lies, as shares of the silhouette's height.
 struct RingShape {
@@ -44,20 +51,21 @@ struct RingShape {
   double width = 0;  ///< of the ring; at least one pixel
 };
 
-/// One template: the spans of the silhouette, then those of all that lies within the gap, then
-/// those of all that lies within the ring, each cut to the image.
+/// One template: the boundary of the silhouette, then that of all that lies within the gap, then
+/// that of all that lies within the ring, each cut to the image.
 struct SpanTemplate {
-  std::uint32_t inner = 0;       ///< first span of the silhouette
-  std::uint32_t near = 0;        ///< first span of the silhouette and gap
-  std::uint32_t outer = 0;       ///< first span of the silhouette, gap and ring
+  std::uint32_t inner = 0;       ///< first boundary run of the silhouette
+  std::uint32_t near = 0;        ///< first of silhouette and gap
+  std::uint32_t outer = 0;       ///< first of silhouette, gap and ring
   std::uint32_t end = 0;         ///< behind the last
   std::uint32_t inner_area = 0;  ///< pixels
   std::uint32_t near_area = 0;   ///< pixels, the silhouette included
   std::uint32_t outer_area = 0;  ///< pixels, silhouette and gap included
   float full_area = 0;           ///< pixels of the silhouette, parts outside the image included
+  cv::Rect near_box, outer_box;  ///< pixels; empty where the silhouette is
 };
 
-/// Templates of one view, made for RowCounts.
+/// Templates of one view, made for AreaCounts.
 class SpanTemplates final : public TemplateBatch {
  public:
   explicit SpanTemplates(cv::Size image) : image_(image) {}
@@ -66,9 +74,8 @@ class SpanTemplates final : public TemplateBatch {
   std::size_t size() const override { return templates_.size(); }
   cv::Size image() const { return image_; }
   const SpanTemplate& at(std::size_t i) const { return templates_.at(i); }
-  const CountSpan& span(std::uint32_t i) const { return spans_[i]; }
-  std::span<const CountSpan> spans(std::uint32_t begin, std::uint32_t end) const {
-    return std::span(spans_).subspan(begin, end - begin);
+  std::span<const BoundaryRun> runs(std::uint32_t begin, std::uint32_t end) const {
+    return std::span(runs_).subspan(begin, end - begin);
   }
 
  private:
@@ -76,22 +83,35 @@ class SpanTemplates final : public TemplateBatch {
 
   cv::Size image_;
   std::vector<SpanTemplate> templates_;
-  std::vector<CountSpan> spans_;
+  std::vector<BoundaryRun> runs_;
 };
 
 /// `spans` (by rising row) grown by `radius` pixels to all sides, as a square brush would, cut to
 /// the image, without overlaps, by rising row.
 std::vector<RowSpan> dilated(const std::vector<RowSpan>& spans, int radius, cv::Size image);
 
-/// Spans as one list, by rising index and without overlaps.
-std::vector<CountSpan> united(std::vector<CountSpan> spans);
-
 /// What is counted in silhouettes.
 struct Countable {
-  const RowCounts& foreground;           ///< without what is blind
-  const RowCounts& blind;                ///< pixels that count nowhere; empty: none
-  std::span<const CountSpan> explained;  ///< neither do these; see united()
+  const AreaCounts& foreground;  ///< without what is blind
+  const AreaCounts& blind;       ///< pixels that count nowhere; empty: none
+  std::span<const std::shared_ptr<const ExplainedPatch>> explained;  ///< neither do these
 };
+
+/// Pixels in one region.
+struct Counts {
+  std::uint32_t set = 0;     ///< foreground that counts
+  std::uint32_t hidden = 0;  ///< pixels that don't count
+};
+/// Counts in the silhouette, with its gap, and with its ring.
+struct TemplateCounts {
+  Counts inner, near, outer;
+};
+
+TemplateCounts count(const SpanTemplates& templates, std::size_t index, const Countable& seen);
+
+/// What follows from the counts of a template, see occupancy().
+std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts& counts,
+                                double least_visible);
 
 /// Share of foreground inside the silhouette minus its share in the ring, in [-1, 1]. Nothing when
 /// less than `least_visible` of the silhouette is left to look at, parts outside the image counted

@@ -240,6 +240,8 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
   const ContourMatcher& matcher = *view_of(edges).matcher;
   const std::uint8_t* planes = edges.block().planes.data();
   for (std::size_t i = 0; i < which.size(); ++i) {
+    // asked for while the one before is summed up: the planes of all directions fill no near cache
+    if (i + 1 < which.size()) ContourMatcher::fetch(planes, contours, which[i + 1]);
     log_likelihood[i] = std::numeric_limits<double>::quiet_NaN();
     if (edges.blank() || !contours.tells(which[i])) continue;
     if (edges.hidden() == nullptr) {
@@ -286,10 +288,14 @@ EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& 
     }
   };
   for (const std::uint32_t index : which) {
-    const std::uint32_t* point = contours.points(index).data();
-    for (std::size_t d = 0; d < contours.runs(index).size(); ++d) {
-      for (std::uint32_t i = 0; i < contours.runs(index)[d]; ++i, ++point) {
-        take_away_normal(view.layout->directions()[d], view.layout->pixel(d, *point));
+    const ContourRuns runs = contours.runs(index);
+    std::size_t run = 0;
+    for (std::size_t d = 0; d < runs.directions; ++d) {
+      for (const std::size_t end = run + runs.counts[d]; run < end; ++run) {
+        for (std::uint32_t i = 0; i < runs.lengths[run]; ++i) {
+          take_away_normal(view.layout->directions()[d],
+                           view.layout->pixel(d, runs.begins[run] + i));
+        }
       }
     }
     for (const RowSpan& span : contours.spans(index)) {

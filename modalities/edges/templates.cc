@@ -1,15 +1,27 @@
 #include "modalities/edges/templates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plaza::edges {
+namespace {
+
+constexpr std::size_t kMostDirections = 180;  // that the parameter allows
+
+}  // namespace
+
+EdgeTemplates::EdgeTemplates(std::shared_ptr<const PlaneLayout> layout)
+    : layout_(std::move(layout)) {
+  for (const Direction& d : layout_->directions()) {
+    peaks_.push_back(static_cast<std::uint8_t>(d.gate + 1));
+  }
+}
 
 void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& options) {
   const auto count = static_cast<int>(layout_->directions().size());
   const cv::Rect inside({}, layout_->size());
-  const std::size_t run_begin = runs_.size();
-  runs_.resize(run_begin + static_cast<std::size_t>(count), 0);
+  std::vector<std::vector<std::uint32_t>> points(static_cast<std::size_t>(count));
   for (const ContourPoint& point : silhouette.contour) {
     // compared as floats: what lies far outside doesn't fit an int
     const float x = std::round(point.pixel.x()), y = std::round(point.pixel.y());
@@ -17,13 +29,28 @@ void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& opt
                       y < static_cast<float>(inside.height);
     if (!seen || !point.normal.allFinite()) continue;
     const auto direction = static_cast<std::size_t>(nearest_direction(point.normal, count));
-    points_.push_back(layout_->offset(direction, static_cast<int>(x), static_cast<int>(y)));
-    ++runs_[run_begin + direction];
+    points[direction].push_back(
+        layout_->offset(direction, static_cast<int>(x), static_cast<int>(y)));
   }
-  // planes lie in the block by rising direction
-  std::sort(points_.begin() + static_cast<std::ptrdiff_t>(begins_.back()), points_.end());
-  const std::size_t seen = points_.size() - begins_.back();
-  begins_.push_back(points_.size());
+  std::size_t seen = 0;
+  for (std::vector<std::uint32_t>& of_direction : points) {
+    std::sort(of_direction.begin(), of_direction.end());
+    const std::size_t first = begins_.size();
+    for (const std::uint32_t point : of_direction) {
+      const bool goes_on = begins_.size() > first && lengths_.back() < kLongestRun &&
+                           point == begins_.back() + lengths_.back();
+      if (goes_on) {
+        ++lengths_.back();
+      } else {
+        begins_.push_back(point);
+        lengths_.push_back(1);
+      }
+    }
+    counts_.push_back(static_cast<std::uint32_t>(begins_.size() - first));
+    seen += of_direction.size();
+  }
+  first_run_.push_back(begins_.size());
+  points_.push_back(static_cast<std::uint32_t>(seen));
   tells_.push_back(silhouette.inside_share >= options.min_visible &&
                    seen >= static_cast<std::size_t>(options.min_points));
   if (options.spans) {
@@ -33,56 +60,37 @@ void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& opt
 }
 
 ContourMatcher::ContourMatcher(std::shared_ptr<const PlaneLayout> layout, double sigma_px,
-                               double gate_px)
-    : layout_(std::move(layout)), sigma_px_(sigma_px), gate_px_(gate_px) {
-  std::vector<int> gates;
-  for (const Direction& d : layout_->directions()) {
-    const auto known = std::find(gates.begin(), gates.end(), d.gate);
-    table_index_.push_back(static_cast<std::size_t>(known - gates.begin()));
-    if (known != gates.end()) continue;
-    gates.push_back(d.gate);
-    Table& table = tables_.emplace_back();
-    table.of[0] = std::uint64_t{1} << 32;
-    for (int nearness = 1; nearness < 256; ++nearness) {
-      const int steps = std::max(0, d.gate + 1 - nearness);
-      table.of[nearness] = static_cast<std::uint64_t>(steps) * static_cast<std::uint64_t>(steps);
-    }
+                               double gate_px, SumContour sum)
+    : layout_(std::move(layout)), sigma_px_(sigma_px), gate_px_(gate_px), sum_(sum) {
+  if (layout_->directions().size() > kMostDirections) {
+    throw std::invalid_argument("contours are matched in at most 180 directions");
   }
+}
+
+double ContourMatcher::log_likelihood_of(std::span<const ContourSum> sums,
+                                         std::uint64_t points) const {
+  double sum_px2 = 0;
+  std::uint64_t outliers = 0;
+  for (std::size_t d = 0; d < sums.size(); ++d) {
+    const double step_px = layout_->directions()[d].step_px;
+    sum_px2 += static_cast<double>(sums[d].squares) * step_px * step_px;
+    outliers += sums[d].outliers;
+  }
+  sum_px2 += static_cast<double>(outliers) * gate_px_ * gate_px_;
+  return -sum_px2 / (2 * static_cast<double>(points) * sigma_px_ * sigma_px_);
+}
+
+void ContourMatcher::fetch(const std::uint8_t* block, const EdgeTemplates& templates,
+                           std::size_t index) {
+  for (const std::uint32_t begin : templates.begins(index)) __builtin_prefetch(block + begin);
 }
 
 double ContourMatcher::log_likelihood(const std::uint8_t* block, const EdgeTemplates& templates,
                                       std::size_t index) const {
-  // so many squares of at most 254 steps fit the low half
-  constexpr std::size_t kMost = 65535;
-  const std::span<const std::uint32_t> points = templates.points(index);
-  const std::span<const std::uint32_t> runs = templates.runs(index);
-  const std::uint32_t* p = points.data();
-  double sum_px2 = 0;
-  std::uint64_t outliers = 0;
-  for (std::size_t d = 0; d < runs.size(); ++d) {
-    if (runs[d] == 0) continue;
-    const std::uint64_t* square = tables_[table_index_[d]].of;
-    std::uint64_t squares = 0;
-    for (std::size_t left = runs[d]; left > 0;) {
-      const std::size_t count = std::min(left, kMost);
-      std::uint64_t even = 0, odd = 0;
-      std::size_t i = 0;
-      for (; i + 1 < count; i += 2) {
-        even += square[block[p[i]]];
-        odd += square[block[p[i + 1]]];
-      }
-      if (i < count) even += square[block[p[i]]];
-      const std::uint64_t both = even + odd;
-      squares += both & 0xFFFFFFFF;
-      outliers += both >> 32;
-      p += count;
-      left -= count;
-    }
-    const double step_px = layout_->directions()[d].step_px;
-    sum_px2 += static_cast<double>(squares) * step_px * step_px;
-  }
-  sum_px2 += static_cast<double>(outliers) * gate_px_ * gate_px_;
-  return -sum_px2 / (2 * static_cast<double>(points.size()) * sigma_px_ * sigma_px_);
+  std::array<ContourSum, kMostDirections> sums;
+  const ContourRuns runs = templates.runs(index);
+  sum_(block, runs, sums.data());
+  return log_likelihood_of(std::span(sums).first(runs.directions), templates.points(index));
 }
 
 std::optional<double> ContourMatcher::log_likelihood(const std::uint8_t* block,
@@ -90,33 +98,30 @@ std::optional<double> ContourMatcher::log_likelihood(const std::uint8_t* block,
                                                      const EdgeTemplates& templates,
                                                      std::size_t index, double least_share,
                                                      int least_points) const {
-  const std::span<const std::uint32_t> points = templates.points(index);
-  const std::span<const std::uint32_t> runs = templates.runs(index);
-  const std::uint32_t* p = points.data();
-  double sum_px2 = 0;
-  std::uint64_t outliers = 0;
-  std::size_t seen = 0;
-  for (std::size_t d = 0; d < runs.size(); ++d) {
-    const Direction& direction = layout_->directions()[d];
-    const std::uint64_t* square = tables_[table_index_[d]].of;
-    const std::uint8_t* hides = hidden.plane(direction.steep);
+  std::array<ContourSum, kMostDirections> sums;
+  const ContourRuns runs = templates.runs(index);
+  std::size_t run = 0, seen = 0;
+  for (std::size_t d = 0; d < runs.directions; ++d) {
+    const std::uint8_t* hides = hidden.plane(layout_->directions()[d].steep);
     const std::uint32_t plane_begin = layout_->plane_begin(d);
-    std::uint64_t squares = 0;
-    for (std::size_t i = 0; i < runs[d]; ++i, ++p) {
-      if (hides[*p - plane_begin] != 0) continue;
-      const std::uint64_t found = square[block[*p]];
-      squares += found & 0xFFFFFFFF;
-      outliers += found >> 32;
-      ++seen;
+    for (const std::size_t end = run + runs.counts[d]; run < end; ++run) {
+      for (std::uint32_t p = runs.begins[run]; p < runs.begins[run] + runs.lengths[run]; ++p) {
+        if (hides[p - plane_begin] != 0) continue;
+        ++seen;
+        const int steps = std::max(0, runs.peaks[d] - block[p]);
+        if (block[p] == 0) {
+          ++sums[d].outliers;
+        } else {
+          sums[d].squares += static_cast<std::uint64_t>(steps * steps);
+        }
+      }
     }
-    sum_px2 += static_cast<double>(squares) * direction.step_px * direction.step_px;
   }
   if (seen < static_cast<std::size_t>(least_points) ||
-      static_cast<double>(seen) < least_share * static_cast<double>(points.size())) {
+      static_cast<double>(seen) < least_share * static_cast<double>(templates.points(index))) {
     return std::nullopt;
   }
-  sum_px2 += static_cast<double>(outliers) * gate_px_ * gate_px_;
-  return -sum_px2 / (2 * static_cast<double>(seen) * sigma_px_ * sigma_px_);
+  return log_likelihood_of(std::span(sums).first(runs.directions), seen);
 }
 
 }  // namespace plaza::edges

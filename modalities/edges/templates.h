@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/edges/contour_sums.h"
 #include "modalities/edges/fast_transform.h"
 #include "modalities/edges/hidden_region.h"
 #include "plaza/component/modality.h"
@@ -19,28 +20,31 @@ struct TemplateOptions {
   bool spans = false;        ///< whether explain() needs the inside
 };
 
-/// Silhouette contours of one view, as the indices of the bytes that they read in a block of
-/// planes: template by template, in each by direction, in each direction by rising index.
+/// Silhouette contours of one view, as the runs of bytes that they read in a block of planes:
+/// template by template, in each by direction, in each direction by rising index. A byte that
+/// several contour points fall on is in as many runs.
 class EdgeTemplates final : public TemplateBatch {
  public:
-  explicit EdgeTemplates(std::shared_ptr<const PlaneLayout> layout) : layout_(std::move(layout)) {}
+  explicit EdgeTemplates(std::shared_ptr<const PlaneLayout> layout);
 
   /// Appends a silhouette. Contour points outside the image aren't kept.
   void add(const Silhouette& silhouette, const TemplateOptions& options);
 
-  std::size_t size() const override { return begins_.size() - 1; }
+  std::size_t size() const override { return points_.size(); }
   const std::shared_ptr<const PlaneLayout>& layout() const { return layout_; }
 
   /// False: too little of the template is in this view to tell anything.
   bool tells(std::size_t index) const { return tells_[index] != 0; }
-  /// All points of a template.
-  std::span<const std::uint32_t> points(std::size_t index) const {
-    return {points_.data() + begins_[index], points_.data() + begins_[index + 1]};
+  /// Number of contour points in the image.
+  std::uint32_t points(std::size_t index) const { return points_[index]; }
+  ContourRuns runs(std::size_t index) const {
+    const std::size_t directions = peaks_.size();
+    return {begins_.data() + first_run_[index], lengths_.data() + first_run_[index],
+            counts_.data() + index * directions, peaks_.data(), directions};
   }
-  /// How many of its points belong to each direction, in their order.
-  std::span<const std::uint32_t> runs(std::size_t index) const {
-    const std::size_t count = layout_->directions().size();
-    return {runs_.data() + index * count, count};
+  /// First bytes of all its runs.
+  std::span<const std::uint32_t> begins(std::size_t index) const {
+    return {begins_.data() + first_run_[index], begins_.data() + first_run_[index + 1]};
   }
   /// Rows of its inside; empty unless TemplateOptions::spans.
   std::span<const RowSpan> spans(std::size_t index) const {
@@ -50,23 +54,30 @@ class EdgeTemplates final : public TemplateBatch {
 
  private:
   std::shared_ptr<const PlaneLayout> layout_;
-  std::vector<std::uint32_t> points_, runs_;
-  std::vector<std::size_t> begins_{0}, span_begins_{0};
-  std::vector<std::uint8_t> tells_;
+  std::vector<std::uint8_t> peaks_;     ///< [direction]
+  std::vector<std::uint32_t> begins_;   ///< [run]
+  std::vector<std::uint8_t> lengths_;   ///< [run]
+  std::vector<std::uint32_t> counts_;   ///< [template * directions + direction] runs
+  std::vector<std::size_t> first_run_{0};  ///< [template], and the number of all
+  std::vector<std::uint32_t> points_;   ///< [template]
+  std::vector<std::uint8_t> tells_;     ///< [template]
   std::vector<RowSpan> spans_;
+  std::vector<std::size_t> span_begins_{0};
 };
 
 /// Log-likelihood (4.3) of templates over one block of planes:
 /// -sum min(DT^2, D_max^2) / (2 N R^2), in [-D_max^2 / (2 R^2), 0].
 ///
-/// Distances are whole steps, so that per direction their squares are summed up without rounding:
-/// one table look-up per point gives the square in the low half of a 64-bit word and, beyond the
-/// gate, a one in the high half.
+/// Distances are whole steps, so that per direction their squares are summed up without rounding
+/// (ContourSum); the order of points and the instruction set make no difference.
 class ContourMatcher {
  public:
   /// `sigma_px` is R, `gate_px` D_max.
-  ContourMatcher(std::shared_ptr<const PlaneLayout> layout, double sigma_px, double gate_px);
+  ContourMatcher(std::shared_ptr<const PlaneLayout> layout, double sigma_px, double gate_px,
+                 SumContour sum = sum_contour_versions().back().run);
 
+  /// Begins to bring what a template reads into the cache.
+  static void fetch(const std::uint8_t* block, const EdgeTemplates& templates, std::size_t index);
   /// The template must tell something.
   double log_likelihood(const std::uint8_t* block, const EdgeTemplates& templates,
                         std::size_t index) const;
@@ -77,13 +88,11 @@ class ContourMatcher {
                                        double least_share, int least_points) const;
 
  private:
-  struct Table {
-    std::uint64_t of[256];  ///< by nearness
-  };
+  double log_likelihood_of(std::span<const ContourSum> sums, std::uint64_t points) const;
+
   std::shared_ptr<const PlaneLayout> layout_;
   double sigma_px_, gate_px_;
-  std::vector<Table> tables_;             ///< one per different gate
-  std::vector<std::size_t> table_index_;  ///< by direction
+  SumContour sum_;
 };
 
 }  // namespace plaza::edges

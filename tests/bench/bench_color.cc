@@ -1,5 +1,5 @@
 // Foreground segmentation of one image by one core: criterion and random field with a previous
-// mask, and the counts along rows that silhouettes are matched with. No Lab.
+// mask, and the running counts that silhouettes are matched with. No Lab.
 #include <benchmark/benchmark.h>
 
 #include <ctime>
@@ -62,8 +62,8 @@ void segment(benchmark::State& state, const char* figure, const RowKernels& kern
   for ([[maybe_unused]] auto _ : state) {
     const Segmentation result = segmenter->segment(images[turn++ % 2], previous);
     previous = result.mask;
-    const RowCounts counts(result.mask);
-    benchmark::DoNotOptimize(counts[RowCounts::index(kHeight - 1, kWidth, kWidth)]);
+    const AreaCounts counts(result.mask);
+    benchmark::DoNotOptimize(counts.data()[counts.size() - 1]);
   }
   const double seconds = processor_seconds() - begin;
   state.counters[figure] = 1e3 * seconds / static_cast<double>(state.iterations());

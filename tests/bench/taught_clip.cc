@@ -1,10 +1,13 @@
 #include "tests/bench/taught_clip.h"
 
 #include <filesystem>
+#include <set>
 
 #include "framework/execution/frame_reader.h"
 #include "framework/execution/learn.h"
 #include "framework/plugin/loader.h"
+#include "modalities/color/color.h"
+#include "modalities/edges/edges.h"
 #include "tests/support/into_registry.h"
 
 namespace plaza::bench {
@@ -12,14 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All plugins of the build tree; the detector is linked in, so that its search can be asked.
+/// All plugins of the build tree; what is looked into from outside is linked in instead.
 const Registry& registry() {
   static const Registry kRegistry = [] {
     Registry r;
-    test::IntoRegistry(r).add<HierarchicalGrid>();
+    test::IntoRegistry into(r);
+    into.add<HierarchicalGrid>();
+    into.add<edges::Edges>();
+    into.add<ColorModality>();
+    const std::set<std::string> linked = {"plaza_hierarchical_grid.so", "plaza_edges.so",
+                                          "plaza_color.so"};
     for (const fs::path& library :
          find_plugins({fs::path(PLAZA_BINARY_DIR) / "lib" / "plaza" / "plugins"})) {
-      if (library.filename() != "plaza_hierarchical_grid.so") load_plugin(library, r);
+      if (!linked.contains(library.filename().string())) load_plugin(library, r);
     }
     return r;
   }();
@@ -83,6 +91,13 @@ void TaughtClip::run(const std::function<void(const FrameState&)>& done) const {
   };
   const LoopEnd end = run_frames(loop, kThreads);
   if (end.fault) std::rethrow_exception(end.fault);
+}
+
+const Modality& TaughtClip::modality(const std::string& name) const {
+  for (const PlannedNode& node : plan_.nodes) {
+    if (node.name == name) return dynamic_cast<const Modality&>(*node.node);
+  }
+  throw InternalError("there is no node '" + name + "'");
 }
 
 SearchResult TaughtClip::search(const FrameState& state) const {

@@ -30,6 +30,11 @@ class TaughtClip {
              const Chosen& chosen);
 
   std::size_t size() const { return frames_.size(); }
+  const Scene& scene() const { return *resolved_.scene; }
+  const cv::Mat& image(std::size_t i, std::size_t camera) const {
+    return static_cast<const FrameSet&>(*frames_.at(i).images).views.at(camera);
+  }
+  const Modality& modality(const std::string& name) const;
 
   /// All frames through the nodes, by the executor's loop, kThreads frames at a time.
   void run(const std::function<void(const FrameState&)>& done) const;

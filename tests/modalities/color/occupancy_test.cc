@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "modalities/color/explained_patch.h"
+
 namespace plaza::color {
 namespace {
 
@@ -93,20 +95,25 @@ TEST(OccupancyTest, EqualsCountingPixelByPixel) {
     const cv::Mat blind = random_mask(i + 1000, i % 3 == 0 ? 0 : 60);
     cv::Mat foreground = random_mask(i, 40);
     foreground.setTo(cv::Scalar(0), blind);
-    std::vector<CountSpan> explained;
+    std::vector<std::shared_ptr<const ExplainedPatch>> explained;
     cv::Mat hidden = blind.clone();
     for (std::uint32_t people = 0; people < i % 4; ++people) {
       const Silhouette other = random_silhouette(random);
       cv::bitwise_or(hidden, painted(other.spans), hidden);
+      int left = kImage.width, right = 0;
       for (const RowSpan& span : other.spans) {
-        explained.push_back({RowCounts::index(span.row, span.begin, kImage.width),
-                             RowCounts::index(span.row, span.end, kImage.width)});
+        left = std::min(left, span.begin);
+        right = std::max(right, span.end);
       }
+      const int top = other.spans.front().row, bottom = other.spans.back().row + 1;
+      explained.push_back(std::make_shared<const ExplainedPatch>(
+          boundary_of(other.spans), cv::Rect(left, top, right - left, bottom - top), foreground,
+          i % 3 == 0 ? cv::Mat() : blind, explained));
     }
     const auto expected = brute_force(s, gap, radius, foreground, hidden, 0.4);
-    const RowCounts blind_counts = cv::countNonZero(blind) == 0 ? RowCounts() : RowCounts(blind);
-    const auto actual = occupancy(
-        templates, 1, {RowCounts(foreground), blind_counts, united(std::move(explained))}, 0.4);
+    const AreaCounts blind_counts = cv::countNonZero(blind) == 0 ? AreaCounts() : AreaCounts(blind);
+    const auto actual =
+        occupancy(templates, 1, {AreaCounts(foreground), blind_counts, explained}, 0.4);
     ASSERT_EQ(actual.has_value(), expected.has_value()) << i;
     if (actual) {
       EXPECT_NEAR(*actual, *expected, 1e-12) << i;
@@ -117,6 +124,21 @@ TEST(OccupancyTest, EqualsCountingPixelByPixel) {
   EXPECT_GT(untold, 50);
 }
 
+TEST(OccupancyTest, UprightBoundariesAreFewRuns) {
+  std::vector<RowSpan> spans;
+  for (int row = 5; row < 25; ++row) spans.push_back({row, row < 15 ? 10 : 12, 20});
+  const std::vector<BoundaryRun> runs = boundary_of(spans);
+  ASSERT_EQ(runs.size(), 3U);  // two on the left, one on the right
+  const AreaCounts all(cv::Mat(kImage, CV_8UC1, cv::Scalar(1)));
+  SpanTemplates templates(kImage);
+  Silhouette s;
+  s.spans = spans;
+  s.inside_share = 1;
+  s.box = {10, 5, 10, 20};
+  templates.add(s, {0, 0.1});
+  EXPECT_EQ(count(templates, 0, {all, {}, {}}).inner.set, 180U);
+}
+
 TEST(OccupancyTest, PartsOutsideTheImageAreNotVisible) {
   Silhouette s;
   for (int row = 0; row < 10; ++row) s.spans.push_back({row, 0, 4});
@@ -125,7 +147,7 @@ TEST(OccupancyTest, PartsOutsideTheImageAreNotVisible) {
   SpanTemplates templates(kImage);
   templates.add(s, {0, 0.1});
   templates.add(Silhouette(), {0, 0.1});  // not visible at all
-  const RowCounts counts(cv::Mat(kImage, CV_8UC1, cv::Scalar(255))), none;
+  const AreaCounts counts(cv::Mat(kImage, CV_8UC1, cv::Scalar(255))), none;
   const Countable all{counts, none, {}};
   EXPECT_DOUBLE_EQ(occupancy(templates, 0, all, 0.3).value(), 0);
   EXPECT_FALSE(occupancy(templates, 0, all, 0.5).has_value());
@@ -163,8 +185,8 @@ TEST(OccupancyTest, FilledInEmptySurroundingsIsOneAndTheOtherWayRoundMinusOne) {
   templates.add(s, {0, 0.2});
   const cv::Mat inside = painted(s.spans);
   const cv::Mat outside = 255 - inside;
-  EXPECT_DOUBLE_EQ(occupancy(templates, 0, {RowCounts(inside), RowCounts(), {}}, 0).value(), 1);
-  EXPECT_DOUBLE_EQ(occupancy(templates, 0, {RowCounts(outside), RowCounts(), {}}, 0).value(), -1);
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, {AreaCounts(inside), AreaCounts(), {}}, 0).value(), 1);
+  EXPECT_DOUBLE_EQ(occupancy(templates, 0, {AreaCounts(outside), AreaCounts(), {}}, 0).value(), -1);
 }
 
 }  // namespace
