@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "modalities/color/opencl_segmenter.h"
+#include "modalities/common/opencl.h"
 #include "plaza/core/parallel.h"
 
 namespace plaza {
@@ -45,15 +46,7 @@ ColorModality::ColorModality(const Options& options, const BuildContext& context
                 color::BackgroundLearner(static_cast<std::size_t>(options.background_samples))) {}
 
 Diagnostics ColorModality::do_check() const {
-  if (options_.device == Device::kOpencl && color::opencl_device().empty()) {
-    Diagnostic fault;
-    fault.pointer = "/device";
-    fault.message =
-        "there is no OpenCL device: install a driver (on Debian pocl-opencl-icd runs on any "
-        "processor, with OPENCV_OPENCL_DEVICE=:CPU:) or use \"cpu\"";
-    return {fault};
-  }
-  return {};
+  return options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
 }
 
 Modality::Prepared ColorModality::do_prepare(const cv::Mat& image, std::size_t camera,
@@ -93,10 +86,20 @@ void ColorModality::do_match(const Evidence& evidence, const TemplateBatch& temp
   const auto& seen = static_cast<const ColorEvidence&>(evidence);
   const auto& batch = static_cast<const color::SpanTemplates&>(templates);
   const double scale = -0.5 / (options_.occupancy_sigma * options_.occupancy_sigma);
+  const auto value = [&](const std::optional<double>& occupancy) {
+    return occupancy ? scale * (1 - *occupancy) * (1 - *occupancy)
+                     : std::numeric_limits<double>::quiet_NaN();
+  };
+  if (counter_ && which.size() >= opencl::kLeastTemplates && seen.countable_on_device()) {
+    const std::vector<color::TemplateCounts> counts = seen.count(*counter_, batch, which);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      log_likelihood[i] =
+          value(color::occupancy(batch.at(which[i]), counts[i], options_.least_visible));
+    }
+    return;
+  }
   for (std::size_t i = 0; i < which.size(); ++i) {
-    const auto occupancy = seen.occupancy(batch, which[i], options_.least_visible);
-    log_likelihood[i] = occupancy ? scale * (1 - *occupancy) * (1 - *occupancy)
-                                  : std::numeric_limits<double>::quiet_NaN();
+    log_likelihood[i] = value(seen.occupancy(batch, which[i], options_.least_visible));
   }
 }
 
@@ -183,6 +186,9 @@ void ColorModality::use(std::vector<color::Background> backgrounds) {
                                        .neighbourhood = options_.neighbourhood,
                                        .previous = options_.previous,
                                        .iterations = options_.iterations};
+  if (options_.device == Device::kOpencl && !counter_) {
+    counter_ = std::make_unique<const color::OpenclCounter>();
+  }
   std::vector<View> views(backgrounds.size());
   parallel_for(views.size(), [&](std::size_t c) {
     View& view = views[c];
@@ -281,7 +287,9 @@ Declaration<ColorModality::Options> ColorModality::declare() {
       .at_most(4096)
       .meaning("most frames kept in memory while learning; of more, an even selection");
   p.choice("device", &Options::device, {"cpu", "opencl"})
-      .meaning("what segments: one core with its vector instructions, or OpenCV's OpenCL device");
+      .meaning(
+          "what segments and counts in silhouettes: one core with its vector instructions, or "
+          "OpenCV's OpenCL device; likelihoods of the same mask are equal bit by bit");
   Declaration<Options> d("color", "Foreground by colour, and how it fills silhouettes.");
   return d.source("thesis 5.4.1; Griesser et al. 2005")
       .input<FrameSet>("images of all views")

@@ -7,6 +7,7 @@
 
 #include "modalities/color/background.h"
 #include "modalities/color/color_evidence.h"
+#include "modalities/color/opencl_counter.h"
 #include "modalities/color/segmenter.h"
 #include "plaza/component/declaration.h"
 #include "plaza/component/learner.h"
@@ -88,6 +89,7 @@ class ColorModality final : public Modality, private Learner {
   Options options_;
   std::vector<color::BackgroundLearner> learners_;  ///< [camera]
   std::vector<View> views_;                         ///< [camera]; empty until learned or loaded
+  std::unique_ptr<const color::OpenclCounter> counter_;  ///< null: the CPU counts
 };
 
 }  // namespace plaza

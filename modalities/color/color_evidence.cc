@@ -86,6 +86,15 @@ std::optional<double> ColorEvidence::occupancy(const SpanTemplates& templates, s
   return color::occupancy(templates, index, {*counts_, blind_->counts, explained_}, least_visible);
 }
 
+std::vector<TemplateCounts> ColorEvidence::count(const OpenclCounter& device,
+                                                 const SpanTemplates& templates,
+                                                 std::span<const std::uint32_t> which) const {
+  const cv::UMat& foreground = on_device_.get([&] { return OpenclCounter::upload(*counts_); });
+  const cv::UMat& blind = blind_->on_device.get(
+      [&] { return blind_->counts.empty() ? cv::UMat() : OpenclCounter::upload(blind_->counts); });
+  return device.count(foreground, blind, counts_->stride(), templates, which);
+}
+
 std::shared_ptr<const ColorEvidence> ColorEvidence::without(
     const SpanTemplates& templates, std::span<const std::uint32_t> which) const {
   Patches patches = explained_;

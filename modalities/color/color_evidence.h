@@ -9,7 +9,9 @@
 #include "modalities/color/background.h"
 #include "modalities/color/explained_patch.h"
 #include "modalities/color/occupancy.h"
+#include "modalities/color/opencl_counter.h"
 #include "modalities/color/segmenter.h"
+#include "modalities/common/opencl.h"
 #include "plaza/data/evidence.h"
 
 namespace plaza::color {
@@ -22,6 +24,7 @@ class ColorEvidence final : public Evidence {
   struct Blind {
     cv::Mat mask;  ///< 8-bit, 0 or 255; empty: no pixel
     AreaCounts counts;
+    opencl::OnDevice<cv::UMat> on_device;
   };
   enum class State {
     kUsable,
@@ -42,6 +45,12 @@ class ColorEvidence final : public Evidence {
   const cv::Mat& lab() const;
   std::vector<Picture> pictures() const override;
 
+  /// Whether counts of templates can come from a device: nothing is explained yet. (Afterwards a
+  /// few templates are judged again, which is not worth what an upload per person costs.)
+  bool countable_on_device() const { return state_ == State::kUsable && explained_.empty(); }
+  /// count() for templates which[i], by OpenCL; the foreground goes to the device once.
+  std::vector<TemplateCounts> count(const OpenclCounter& device, const SpanTemplates& templates,
+                                    std::span<const std::uint32_t> which) const;
   /// See plaza::color::occupancy(); nothing when the evidence isn't usable either.
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                   double least_visible) const;
@@ -60,6 +69,7 @@ class ColorEvidence final : public Evidence {
   std::shared_ptr<const Background> background_;
   std::shared_ptr<const Blind> blind_;
   std::shared_ptr<const AreaCounts> counts_;  ///< of foreground, without what is blind
+  opencl::OnDevice<cv::UMat> on_device_;      ///< counts_
   Patches explained_;                         ///< in the order in which they were accepted
   mutable std::once_flag lab_once_;
   mutable cv::Mat lab_;

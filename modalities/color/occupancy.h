@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/common/opencl.h"
 #include "plaza/component/modality.h"
 #include "plaza/component/models.h"
 
@@ -65,6 +66,12 @@ struct SpanTemplate {
   cv::Rect near_box, outer_box;  ///< pixels; empty where the silhouette is
 };
 
+/// Templates of one view on an OpenCL device.
+struct DeviceRegions {
+  cv::UMat runs;    ///< BoundaryRun
+  cv::UMat bounds;  ///< [4 * template + i] inner, near, outer, end
+};
+
 /// Templates of one view, made for AreaCounts.
 class SpanTemplates final : public TemplateBatch {
  public:
@@ -77,6 +84,8 @@ class SpanTemplates final : public TemplateBatch {
   std::span<const BoundaryRun> runs(std::uint32_t begin, std::uint32_t end) const {
     return std::span(runs_).subspan(begin, end - begin);
   }
+  /// The same on the OpenCL device, made when first asked for; no template may be added then.
+  const opencl::OnDevice<DeviceRegions>& on_device() const { return on_device_; }
 
  private:
   std::uint32_t append(const std::vector<RowSpan>& spans);
@@ -84,6 +93,7 @@ class SpanTemplates final : public TemplateBatch {
   cv::Size image_;
   std::vector<SpanTemplate> templates_;
   std::vector<BoundaryRun> runs_;
+  opencl::OnDevice<DeviceRegions> on_device_;
 };
 
 /// `spans` (by rising row) grown by `radius` pixels to all sides, as a square brush would, cut to

@@ -1,16 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "modalities/color/segmenter.h"
 
 namespace plaza::color {
-
-/// Name of the OpenCL device that OpenCV uses; empty when there is none. OpenCV takes the one that
-/// the environment variable OPENCV_OPENCL_DEVICE names ("PLATFORM:TYPE:DEVICE", ":CPU:" for the
-/// first processor).
-std::string opencl_device();
 
 /// The same segmentation by OpenCL, through OpenCV's buffers and queues. Integer steps are the
 /// CPU's; strengths differ from the CPU's by at most kOpenclTolerance steps, since OpenCL leaves

@@ -134,6 +134,12 @@ Declaration<Edges::Options> Edges::declare() {
           "normals (contour), and those inside (silhouette), after which the rest is transformed "
           "anew; or, much faster, no edge, but what other contours have inside the silhouette "
           "and within the gate around it counts nowhere, neither for nor against them (region)");
+  p.choice("device", &Options::device, {"cpu", "opencl"})
+      .meaning(
+          "what compares silhouettes in numbers with an image: one core with its vector "
+          "instructions, or OpenCV's OpenCL device, with results equal bit by bit; few "
+          "silhouettes, "
+          "and those judged again after explain(), stay on the core");
   return Declaration<Options>(
              "edges", "Foreground edges against silhouettes, by an oriented distance transform.")
       .source("thesis 4.3.2-4.3.5, (4.1)-(4.3), Algorithm 1")
@@ -186,6 +192,10 @@ Edges::Edges(const Options& options, const BuildContext& context)
 
 Edges::~Edges() = default;
 
+Diagnostics Edges::do_check() const {
+  return options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
+}
+
 Learner* Edges::learner() { return learner_.get(); }
 
 Pool<EvidenceBlock>::Handle Edges::take_block(const View& view) const {
@@ -219,7 +229,7 @@ Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
   workshop->transform.run(block->points, block->planes);
   const bool blank = unknown || is_blank(workshop->image);
   return {std::make_shared<const EdgeEvidence>(view.layout, std::move(background), std::move(block),
-                                               blank),
+                                               blank, false),
           {}};
 }
 
@@ -239,6 +249,22 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
   const EdgeTemplates& contours = contours_of(templates, edges);
   const ContourMatcher& matcher = *view_of(edges).matcher;
   const std::uint8_t* planes = edges.block().planes.data();
+  if (options_.device == Device::kOpencl && which.size() >= opencl::kLeastTemplates &&
+      !edges.explained() && !edges.blank()) {
+    const auto& device = device_.get([] { return std::make_unique<const OpenclMatcher>(); });
+    const std::vector<ContourSum> sums = device->sums(
+        edges.on_device().get([&] { return OpenclMatcher::upload(edges.block().planes); }),
+        contours, which);
+    const std::size_t directions = sums.size() / which.size();
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      log_likelihood[i] =
+          contours.tells(which[i])
+              ? matcher.log_likelihood_of(std::span(sums).subspan(i * directions, directions),
+                                          contours.points(which[i]))
+              : std::numeric_limits<double>::quiet_NaN();
+    }
+    return;
+  }
   for (std::size_t i = 0; i < which.size(); ++i) {
     // asked for while the one before is summed up: the planes of all directions fill no near cache
     if (i + 1 < which.size()) ContourMatcher::fetch(planes, contours, which[i + 1]);
@@ -311,7 +337,7 @@ EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& 
       workshops_[camera]->take([&] { return std::make_unique<Workshop>(view.layout); });
   workshop->transform.run(block->points, block->planes);
   return std::make_shared<const EdgeEvidence>(before.layout(), before.background(),
-                                              std::move(block), before.blank());
+                                              std::move(block), before.blank(), true);
 }
 
 }  // namespace plaza::edges

@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "modalities/common/opencl.h"
 #include "modalities/edges/background.h"
 #include "modalities/edges/evidence.h"
+#include "modalities/edges/opencl_matcher.h"
 #include "modalities/edges/templates.h"
 #include "plaza/component/declaration.h"
 
@@ -17,6 +19,9 @@ enum class Explains {
   kSilhouette,  ///< and all edges inside the silhouette
   kRegion,      ///< no edge, but what others' contours have inside the silhouette counts nowhere
 };
+
+/// What sums up contours.
+enum class Device { kCpu, kOpencl };
 
 /// Silhouettes compared with foreground edges through an oriented distance transform (thesis
 /// 4.3.2-4.3.5).
@@ -41,6 +46,7 @@ class Edges final : public Modality {
     double min_visible = 0.3;
     int min_points = 20;
     Explains explains = Explains::kContour;
+    Device device = Device::kCpu;
   };
   static Declaration<Options> declare();
   Edges(const Options& options, const BuildContext& context);
@@ -56,6 +62,8 @@ class Edges final : public Modality {
     std::shared_ptr<Pool<EvidenceBlock>> blocks;
   };
   struct Workshop;
+
+  Diagnostics do_check() const override;
 
   Prepared do_prepare(const cv::Mat& image, std::size_t camera,
                       const cv::Mat& previous) const override;
@@ -76,7 +84,8 @@ class Edges final : public Modality {
   TemplateOptions template_options_;
   std::unique_ptr<BackgroundLearner> learner_;  ///< null: nothing is subtracted
   std::vector<View> views_;
-  std::vector<std::shared_ptr<Pool<Workshop>>> workshops_;  ///< by view
+  std::vector<std::shared_ptr<Pool<Workshop>>> workshops_;         ///< by view
+  opencl::OnDevice<std::unique_ptr<const OpenclMatcher>> device_;  ///< where it was asked for
 };
 
 }  // namespace plaza::edges

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/common/opencl.h"
 #include "modalities/edges/contour_sums.h"
 #include "modalities/edges/fast_transform.h"
 #include "modalities/edges/hidden_region.h"
@@ -18,6 +19,13 @@ struct TemplateOptions {
   double min_visible = 0.3;  ///< least share of a silhouette inside the image
   int min_points = 20;       ///< least number of contour points inside the image
   bool spans = false;        ///< whether explain() needs the inside
+};
+
+/// Templates of one view on an OpenCL device.
+struct DeviceContours {
+  cv::UMat begins, lengths;  ///< [run]
+  cv::UMat firsts;           ///< [template * directions + direction] first run, and one more
+  cv::UMat peaks;            ///< [direction]
 };
 
 /// Silhouette contours of one view, as the runs of bytes that they read in a block of planes:
@@ -42,6 +50,13 @@ class EdgeTemplates final : public TemplateBatch {
     return {begins_.data() + first_run_[index], lengths_.data() + first_run_[index],
             counts_.data() + index * directions, peaks_.data(), directions};
   }
+  /// Those of all templates, one behind the other.
+  ContourRuns all_runs() const {
+    return {begins_.data(), lengths_.data(), counts_.data(), peaks_.data(), peaks_.size()};
+  }
+  std::span<const std::uint32_t> all_counts() const { return counts_; }
+  /// The same on the OpenCL device, made when first asked for; no template may be added then.
+  const opencl::OnDevice<DeviceContours>& on_device() const { return on_device_; }
   /// First bytes of all its runs.
   std::span<const std::uint32_t> begins(std::size_t index) const {
     return {begins_.data() + first_run_[index], begins_.data() + first_run_[index + 1]};
@@ -54,15 +69,16 @@ class EdgeTemplates final : public TemplateBatch {
 
  private:
   std::shared_ptr<const PlaneLayout> layout_;
-  std::vector<std::uint8_t> peaks_;     ///< [direction]
-  std::vector<std::uint32_t> begins_;   ///< [run]
-  std::vector<std::uint8_t> lengths_;   ///< [run]
-  std::vector<std::uint32_t> counts_;   ///< [template * directions + direction] runs
+  std::vector<std::uint8_t> peaks_;        ///< [direction]
+  std::vector<std::uint32_t> begins_;      ///< [run]
+  std::vector<std::uint8_t> lengths_;      ///< [run]
+  std::vector<std::uint32_t> counts_;      ///< [template * directions + direction] runs
   std::vector<std::size_t> first_run_{0};  ///< [template], and the number of all
-  std::vector<std::uint32_t> points_;   ///< [template]
-  std::vector<std::uint8_t> tells_;     ///< [template]
+  std::vector<std::uint32_t> points_;      ///< [template]
+  std::vector<std::uint8_t> tells_;        ///< [template]
   std::vector<RowSpan> spans_;
   std::vector<std::size_t> span_begins_{0};
+  opencl::OnDevice<DeviceContours> on_device_;
 };
 
 /// Log-likelihood (4.3) of templates over one block of planes:
@@ -87,9 +103,10 @@ class ContourMatcher {
                                        const EdgeTemplates& templates, std::size_t index,
                                        double least_share, int least_points) const;
 
- private:
+  /// From the sums of all directions over so many points.
   double log_likelihood_of(std::span<const ContourSum> sums, std::uint64_t points) const;
 
+ private:
   std::shared_ptr<const PlaneLayout> layout_;
   double sigma_px_, gate_px_;
   SumContour sum_;
