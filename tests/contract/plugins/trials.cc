@@ -254,6 +254,7 @@ const std::map<std::string, Maker>& table() {
              trial("two frames",
                    {{"frames", {3, 1}}, {"evidence", {{{"from", "edges"}}, {{"from", "color"}}}}})};
        }},
+      {"occluder-map", [](const fs::path&) { return defaults(); }},
       {"image-data-set",
        [](const fs::path&) {
          return std::vector<Trial>{Trial(),
