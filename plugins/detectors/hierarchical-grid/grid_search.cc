@@ -44,37 +44,56 @@ double log_mean(std::span<const double> values) {
 
 }  // namespace
 
+double ViewTrust::of(const Silhouette& silhouette, Eigen::Vector2i image_size) const {
+  const Box& box = silhouette.box;
+  double trust = visible_share ? silhouette.inside_share : 1;
+  if (box.height < sharp_px) trust *= box.height / sharp_px;
+  const Eigen::Vector2d half = image_size.cast<double>() / 2;
+  const Eigen::Vector2d middle(box.left + box.width / 2, box.top + box.height / 2);
+  const double corners = std::min((middle - half).squaredNorm() / half.squaredNorm(), 1.0);
+  return trust * (1 - edge_loss * corners);
+}
+
 GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy,
-                       const ShapeModel& model, std::vector<Witness> witnesses, std::size_t cameras,
-                       double refine_above, int spread)
+                       const ShapeModel& model, std::vector<Witness> witnesses,
+                       std::span<const Camera> cameras, const ViewTrust& trust, double refine_above,
+                       int spread)
     : grid_(&grid),
       hierarchy_(&hierarchy),
       witnesses_(std::move(witnesses)),
-      cameras_(cameras),
+      cameras_(cameras.size()),
       refine_above_(refine_above),
       spread_(spread) {
-  reach_.assign(cameras, std::vector<Box>(grid.size(grid.levels() - 1)));
+  for (const Camera& camera : cameras) centres_m_.push_back(camera.centre().head<2>());
+  reach_.assign(cameras_, std::vector<Box>(grid.size(grid.levels() - 1)));
   for (std::size_t layer = 0; layer < hierarchy.layers().size(); ++layer) {
     const auto [level, scale] = hierarchy.layers()[layer];
-    auto& batches = batches_.emplace_back(witnesses_.size() * cameras);
-    auto& templates = template_of_cell_.emplace_back(cameras);
-    parallel_for(cameras, [&, level = level, scale = scale](std::size_t camera) {
+    auto& batches = batches_.emplace_back(witnesses_.size() * cameras_);
+    auto& templates = template_of_cell_.emplace_back(cameras_);
+    auto& trusts = trust_.emplace_back(cameras_);
+    parallel_for(cameras_, [&, level = level, scale = scale](std::size_t camera) {
       const LevelTemplates& stored = hierarchy.templates(camera, layer);
       templates[camera].assign(grid.size(level), kUnseen);
+      trusts[camera].assign(grid.size(level), 0);
+      const Eigen::Vector2i image_size(cameras[camera].width(), cameras[camera].height());
       std::vector<Pose> poses;
-      for (const CellIndex cell : stored.cells) {
+      for (std::size_t i = 0; i < stored.cells.size(); ++i) {
+        const CellIndex cell = stored.cells[i];
+        std::size_t offset = stored.offsets[i];
+        trusts[camera][cell] =
+            static_cast<float>(trust.of(decode(stored.bytes, offset), image_size));
         templates[camera][cell] = static_cast<std::uint32_t>(poses.size());
         poses.push_back({grid.position(level, cell), 0, scale});
       }
       const StoredShape shape(model, grid, {level, scale}, stored);
       for (std::size_t w = 0; w < witnesses_.size(); ++w) {
-        batches[w * cameras + camera] = witnesses_[w].modality->sample(shape, poses, camera);
+        batches[w * cameras_ + camera] = witnesses_[w].modality->sample(shape, poses, camera);
       }
     });
   }
   for (std::size_t level = 0; level < grid.levels(); ++level) {
     std::vector<char> seen(grid.size(level), 0);
-    for (std::size_t camera = 0; camera < cameras; ++camera) {
+    for (std::size_t camera = 0; camera < cameras_; ++camera) {
       for (const CellIndex cell : hierarchy.templates(camera, level).cells) seen[cell] = 1;
     }
     auto& cells = seen_cells_.emplace_back();
@@ -82,7 +101,7 @@ GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy
       if (seen[cell] != 0) cells.push_back(static_cast<CellIndex>(cell));
     }
   }
-  for (std::size_t camera = 0; camera < cameras; ++camera) {
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
     const LevelTemplates& stored = hierarchy.templates(camera, grid.levels() - 1);
     for (std::size_t i = 0; i < stored.cells.size(); ++i) {
       std::size_t offset = stored.offsets[i];
@@ -179,6 +198,7 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
     LevelLikelihood here;
     here.joint.assign(grid_->size(level), kUnknown);
     here.per_view = here.joint;
+    here.trust.assign(here.joint.size(), 0);
     here.evaluated.assign(grid_->size(level), 0);
     here.views.assign(cameras_, Values(grid_->size(level), kUnknown));
     if (parents != nullptr) {
@@ -186,10 +206,11 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
         const CellIndex parent = grid_->parent(level, static_cast<CellIndex>(cell));
         here.joint[cell] = parents->joint[parent];
         here.per_view[cell] = parents->per_view[parent];
+        here.trust[cell] = parents->trust[parent];
       }
     }
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      combine(values, i, baselines, wanted[i], here);
+      combine(level, values, i, baselines, wanted[i], here);
     }
     result.levels.push_back(std::move(here));
   }
@@ -197,40 +218,47 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
   return result;
 }
 
-void GridSearch::combine(std::span<const Values> values, std::size_t index,
+void GridSearch::combine(std::size_t layer, std::span<const Values> values, std::size_t index,
                          std::span<const double> baselines, CellIndex cell,
                          LevelLikelihood& level) const {
-  double sum = 0;
-  int told = 0;
+  double sum = 0, trust = 0;
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
     double view = 0;
-    bool view_told = false;
+    bool told = false;
     for (std::size_t w = 0; w < witnesses_.size(); ++w) {
       const std::size_t pair = w * cameras_ + camera;
       const double value = values[pair][index];
       if (!std::isfinite(value)) continue;
       view += witnesses_[w].weight * (value - baselines[pair]);
-      view_told = true;
+      told = true;
     }
-    level.views[camera][cell] = view_told ? view : kUnknown;
-    if (!view_told) continue;
-    sum += view;
-    ++told;
+    level.views[camera][cell] = told ? view : kUnknown;
+    if (!told) continue;
+    const double share = trust_[layer][camera][cell];
+    sum += share * view;
+    trust += share;
   }
-  level.joint[cell] = told > 0 ? sum : kUnknown;
-  level.per_view[cell] = told > 0 ? sum / told : kUnknown;
-  level.evaluated[cell] = told > 0 ? 1 : 0;
+  level.trust[cell] = trust;
+  level.joint[cell] = trust > 0 ? sum : kUnknown;
+  level.per_view[cell] = trust > 0 ? sum / trust : kUnknown;
+  level.evaluated[cell] = trust > 0 ? 1 : 0;
 }
 
 void GridSearch::judge(const AllEvidence& evidence, std::span<const double> baselines,
                        std::size_t size, std::span<const CellIndex> cells,
                        LevelLikelihood& finest) const {
-  const std::vector<Values> values = evaluate(grid_->levels() - 1 + size, cells, evidence);
-  for (std::size_t i = 0; i < cells.size(); ++i) combine(values, i, baselines, cells[i], finest);
+  const std::size_t layer = grid_->levels() - 1 + size;
+  const std::vector<Values> values = evaluate(layer, cells, evidence);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    combine(layer, values, i, baselines, cells[i], finest);
+  }
 }
 
-AllEvidence GridSearch::explain(const AllEvidence& evidence,
-                                std::span<const PlacedBody> people) const {
+AllEvidence GridSearch::explain(const AllEvidence& evidence, std::span<const PlacedBody> people,
+                                std::optional<CellIndex> behind) const {
+  const auto distance = [&](std::size_t camera, CellIndex cell) {
+    return (grid_->position(grid_->levels() - 1, cell) - centres_m_[camera]).norm();
+  };
   AllEvidence rest = evidence;
   parallel_for(witnesses_.size() * cameras_, [&](std::size_t pair) {
     const std::size_t w = pair / cameras_, camera = pair % cameras_;
@@ -241,6 +269,7 @@ AllEvidence GridSearch::explain(const AllEvidence& evidence,
       std::vector<std::uint32_t> which;
       for (const PlacedBody& body : people) {
         if (body.size != size) continue;
+        if (behind && !(distance(camera, body.cell) < distance(camera, *behind))) continue;
         const std::uint32_t index = template_of_cell_[layer][camera][body.cell];
         if (index != kUnseen) which.push_back(index);
       }

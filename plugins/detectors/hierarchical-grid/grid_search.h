@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,12 +20,25 @@ struct Witness {
   double weight = 1;
 };
 
+/// How much a view counts that sees a place badly. Everything that is left out of an image, hidden,
+/// small or blurred makes a silhouette's log-likelihood, which is a mean over its pixels, less sure
+/// without making it smaller.
+struct ViewTrust {
+  bool visible_share = false;  ///< whether a view counts by the share of the silhouette it can see
+  double sharp_px = 0;         ///< a body less high than that counts proportionally less
+  double edge_loss = 0;        ///< share lost in the image's corners, growing with distance squared
+
+  /// In [0, 1], of a silhouette in an image of that size, pixels.
+  double of(const Silhouette& silhouette, Eigen::Vector2i image_size) const;
+};
+
 /// Likelihoods of one level's cells in one frame.
 struct LevelLikelihood {
-  /// [cell]: sum over the views and modalities that can tell; inherited from the parent where the
-  /// cell itself was not evaluated; NaN where nothing can tell.
+  /// [cell]: sum over the views and modalities that can tell, views times their trust; inherited
+  /// from the parent where the cell itself was not evaluated; NaN where nothing can tell.
   std::vector<double> joint;
-  std::vector<double> per_view;            ///< [cell]: joint over the number of views that told
+  std::vector<double> trust;               ///< [cell]: sum over the views that told; 0: none did
+  std::vector<double> per_view;            ///< [cell]: joint over trust
   std::vector<char> evaluated;             ///< [cell]: 1 where the values are the cell's own
   std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
 };
@@ -64,7 +78,8 @@ class GridSearch {
   /// or that of a parent at most `spread` cells beside it; 0: everywhere. Grid and hierarchy must
   /// outlive the search.
   GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy, const ShapeModel& model,
-             std::vector<Witness> witnesses, std::size_t cameras, double refine_above, int spread);
+             std::vector<Witness> witnesses, std::span<const Camera> cameras,
+             const ViewTrust& trust, double refine_above, int spread);
 
   /// Thread-safe, as is all of the following.
   SearchResult search(const AllEvidence& evidence) const;
@@ -77,8 +92,11 @@ class GridSearch {
   /// writes their values, and nothing but theirs, to `finest`.
   void judge(const AllEvidence& evidence, std::span<const double> baselines, std::size_t size,
              std::span<const CellIndex> cells, LevelLikelihood& finest) const;
-  /// The evidence without what people in these cells of the finest level account for.
-  AllEvidence explain(const AllEvidence& evidence, std::span<const PlacedBody> people) const;
+  /// The evidence without what people in these cells of the finest level account for. With
+  /// `behind`, in each view only without those of them who stand nearer to the camera than that
+  /// cell, and could therefore hide who stands there.
+  AllEvidence explain(const AllEvidence& evidence, std::span<const PlacedBody> people,
+                      std::optional<CellIndex> behind = {}) const;
   /// Cells of the finest level, rising, whose people could share evidence with somebody in `cell`:
   /// their silhouettes' boxes, grown by an eighth of their heights, meet in some view.
   std::vector<CellIndex> touching(CellIndex cell) const;
@@ -89,9 +107,9 @@ class GridSearch {
   /// Evaluates `wanted` cells: [witness * cameras + camera][index in `wanted`], NaN where unknown.
   std::vector<Values> evaluate(std::size_t layer, std::span<const CellIndex> wanted,
                                const AllEvidence& evidence) const;
-  /// Writes to `level` what the values of all pairs at `index` say of a cell.
-  void combine(std::span<const Values> values, std::size_t index, std::span<const double> baselines,
-               CellIndex cell, LevelLikelihood& level) const;
+  /// Writes to `level` what the values of all pairs at `index` say of a cell of a layer.
+  void combine(std::size_t layer, std::span<const Values> values, std::size_t index,
+               std::span<const double> baselines, CellIndex cell, LevelLikelihood& level) const;
   std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
 
   const StateGrid* grid_;
@@ -104,9 +122,12 @@ class GridSearch {
   std::vector<std::vector<std::unique_ptr<TemplateBatch>>> batches_;
   /// [layer][camera][cell]: index of the template in the batch; kUnseen: the view doesn't see it
   std::vector<std::vector<std::vector<std::uint32_t>>> template_of_cell_;
+  /// [layer][camera][cell]: of the view; only where it sees the cell
+  std::vector<std::vector<std::vector<float>>> trust_;
   std::vector<std::vector<CellIndex>> seen_cells_;  ///< [level]: by any camera, rising
   /// [camera][cell of the finest level]: of the silhouette, grown; empty where it isn't seen
   std::vector<std::vector<Box>> reach_;
+  std::vector<Eigen::Vector2d> centres_m_;  ///< [camera]: where it is, on the ground
 };
 
 }  // namespace plaza

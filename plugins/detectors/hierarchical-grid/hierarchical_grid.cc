@@ -95,6 +95,23 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .meaning(
           "whether silhouettes lack what the scene's occluders hide; else hidden parts count "
           "as parts that nobody sees a person in");
+  p.value("visible_share", &Options::visible_share)
+      .meaning(
+          "whether a view counts by the share of the silhouette that is in its image and not "
+          "hidden; else all views that tell count alike");
+  p.value("sharp_px", &Options::sharp_px)
+      .unit("px")
+      .at_least(0)
+      .at_most(10000)
+      .meaning(
+          "views in which a body is less high than that count proportionally less; 0: far or "
+          "near is all the same");
+  p.value("edge_loss", &Options::edge_loss)
+      .at_least(0)
+      .at_most(1)
+      .meaning(
+          "how much less a view counts in its image's corners, where lenses are least sharp, "
+          "growing with the squared distance from the middle; 0: as much as anywhere");
   p.value("refine_above", &Options::refine_above)
       .at_least(0)
       .meaning(
@@ -136,6 +153,11 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .at_least(0)
       .at_most(10)
       .meaning("greedy inference: how far somebody moves in a round");
+  p.value("occlusion_order", &Options::occlusion_order)
+      .meaning(
+          "greedy inference: whether somebody who is judged again loses in each view only what who "
+          "stands nearer to the camera accounts for, since nobody else can hide them; else what "
+          "anybody else does");
   p.value("sizes", &Options::sizes)
       .at_least(0.2)
       .at_most(5)
@@ -202,17 +224,20 @@ void HierarchicalGrid::do_load(std::istream& in) {
 }
 
 void HierarchicalGrid::sample() {
-  search_ =
-      std::make_unique<GridSearch>(grid_, hierarchy_, *shape_, witnesses_, scene_->cameras.size(),
-                                   options_.refine_above, options_.spread);
+  search_ = std::make_unique<GridSearch>(
+      grid_, hierarchy_, *shape_, witnesses_, scene_->cameras,
+      ViewTrust{options_.visible_share, options_.sharp_px, options_.edge_loss},
+      options_.refine_above, options_.spread);
   if (options_.inference == Inference::kGreedy) {
-    joint_ = std::make_unique<JointSearch>(grid_, *search_, neighbours_, rivals_,
-                                           JointSearch::Options{.min_score = options_.min_score,
-                                                                .most = options_.most,
-                                                                .rounds = options_.rounds,
-                                                                .reach_m = options_.reach_m,
-                                                                .max_sigma_m = options_.max_sigma_m,
-                                                                .size_sigma = options_.size_sigma});
+    joint_ =
+        std::make_unique<JointSearch>(grid_, *search_, neighbours_, rivals_,
+                                      JointSearch::Options{.min_score = options_.min_score,
+                                                           .most = options_.most,
+                                                           .rounds = options_.rounds,
+                                                           .reach_m = options_.reach_m,
+                                                           .max_sigma_m = options_.max_sigma_m,
+                                                           .nearer_only = options_.occlusion_order,
+                                                           .size_sigma = options_.size_sigma});
   }
 }
 

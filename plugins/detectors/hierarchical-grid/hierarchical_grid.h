@@ -29,6 +29,9 @@ class HierarchicalGrid final : public Detector, private Learner {
     double margin_m = 1.5;
     double min_inside = 0.3;
     bool occluders = true;
+    bool visible_share = false;
+    double sharp_px = 0;
+    double edge_loss = 0;
     double refine_above = 1;
     int spread = 1;
     double smoothing_m = 0.22;
@@ -36,6 +39,7 @@ class HierarchicalGrid final : public Detector, private Learner {
     Inference inference = Inference::kIndependent;
     int rounds = 3;
     double reach_m = 0.5;
+    bool occlusion_order = false;
     std::vector<double> sizes;
     double size_sigma = 0.05;
     Maxima maxima = Maxima::kLocal;

@@ -12,6 +12,7 @@ LevelLikelihood unknown_like(const LevelLikelihood& other) {
   LevelLikelihood out;
   out.joint.assign(other.joint.size(), kUnknown);
   out.per_view = out.joint;
+  out.trust.assign(other.joint.size(), 0);
   out.evaluated.assign(other.evaluated.size(), 0);
   out.views.assign(other.views.size(), out.joint);
   return out;
@@ -20,10 +21,7 @@ LevelLikelihood unknown_like(const LevelLikelihood& other) {
 }  // namespace
 
 double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) {
-  const auto told =
-      std::count_if(level.views.begin(), level.views.end(),
-                    [&](const std::vector<double>& view) { return std::isfinite(view[cell]); });
-  return smoothed / static_cast<double>(std::max<std::ptrdiff_t>(told, 1));
+  return smoothed / level.trust[cell];
 }
 
 /// One frame's people while they are inferred.
@@ -172,7 +170,9 @@ class JointSearch::Scenario {
     std::erase_if(others, [&](const PlacedBody& other) {
       return !s_.search_->touch(other.cell, person.body.cell);
     });
-    own_ = s_.search_->explain(evidence_, others);
+    own_ = s_.search_->explain(
+        evidence_, others,
+        s_.options_.nearer_only ? std::optional(person.body.cell) : std::nullopt);
     if (may_move) {
       person.body.cell = climb(person.body, k);
       const PlacedBody before = person.body;

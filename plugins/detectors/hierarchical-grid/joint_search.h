@@ -9,7 +9,8 @@
 namespace plaza {
 
 /// What a place is judged by: the smoothed log-likelihood over that of an empty place, per view
-/// that told. Sums grow with the views that look at a place whether they agree or not.
+/// that told, each counted by its trust. Sums grow with the views that look at a place whether they
+/// agree or not. NaN where none told.
 double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level);
 
 /// Somebody in a cell of the finest level, judged by the evidence that nobody else accounts for.
@@ -36,7 +37,8 @@ class JointSearch {
     int rounds = 0;      ///< of judging again; 0: what is accepted stays
     double reach_m = 0;  ///< how far somebody moves in a round
     double max_sigma_m = 1;
-    double size_sigma = 1;  ///< of a body's size relative to the model's own
+    bool nearer_only = false;  ///< whether only who is nearer to a camera hides somebody in it
+    double size_sigma = 1;     ///< of a body's size relative to the model's own
   };
   /// `neighbours`: that the likelihood is smoothed over; `rivals`: cells so near to somebody are
   /// nobody else's. Everything must outlive the search.
