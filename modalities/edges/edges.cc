@@ -39,9 +39,11 @@ bool is_blank(const EdgeImage& image) {
 
 /// What a thread needs while it works on an image.
 struct Edges::Workshop {
-  explicit Workshop(std::shared_ptr<const PlaneLayout> layout) : transform(std::move(layout)) {}
+  explicit Workshop(std::shared_ptr<const PlaneLayout> layout)
+      : transform(layout), taken(layout->size(), std::uint8_t{0}) {}
   EdgeImage image;
   FastTransform transform;
+  cv::Mat1b taken;  ///< pixels that are being explained; all 0 in between
 };
 
 Declaration<Edges::Options> Edges::declare() {
@@ -229,7 +231,7 @@ Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
   workshop->transform.run(block->points, block->planes);
   const bool blank = unknown || is_blank(workshop->image);
   return {std::make_shared<const EdgeEvidence>(view.layout, std::move(background), std::move(block),
-                                               blank, false),
+                                               blank),
           {}};
 }
 
@@ -265,12 +267,17 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
     }
     return;
   }
+  PatchedSums patched(planes, edges.patches(), matcher.sum_contour());
+  std::vector<ContourSum> sums(edges.layout()->directions().size());
   for (std::size_t i = 0; i < which.size(); ++i) {
     // asked for while the one before is summed up: the planes of all directions fill no near cache
     if (i + 1 < which.size()) ContourMatcher::fetch(planes, contours, which[i + 1]);
     log_likelihood[i] = std::numeric_limits<double>::quiet_NaN();
     if (edges.blank() || !contours.tells(which[i])) continue;
-    if (edges.hidden() == nullptr) {
+    if (!edges.patches().empty()) {
+      patched.sum(contours, which[i], sums.data());
+      log_likelihood[i] = matcher.log_likelihood_of(sums, contours.points(which[i]));
+    } else if (edges.hidden() == nullptr) {
       log_likelihood[i] = matcher.log_likelihood(planes, contours, which[i]);
     } else if (const auto found =
                    matcher.log_likelihood(planes, *edges.hidden(), contours, which[i],
@@ -294,50 +301,72 @@ EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& 
     }
     return std::make_shared<const EdgeEvidence>(before, std::move(hidden));
   }
-  const cv::Rect inside({}, view.layout->size());
-
-  auto block = take_block(view);
-  block->labels.copy(before.block().labels);
-  LabelImage& labels = block->labels;
-  const auto take_away = [&](int x, int y) {
-    std::uint8_t& label = labels.at(x, y);
-    if ((label & kForeground) != 0)
-      label = static_cast<std::uint8_t>((label & ~kForeground) | kExplained);
-  };
-  const auto take_away_normal = [&](const Direction& direction, cv::Point p) {
-    const int major = direction.steep ? p.y : p.x, minor = direction.steep ? p.x : p.y;
-    for (int k = -direction.gate; k <= direction.gate; ++k) {
-      const int other = minor - direction.shift(major) + direction.shift(major + k);
-      const cv::Point q =
-          direction.steep ? cv::Point(other, major + k) : cv::Point(major + k, other);
-      if (inside.contains(q)) take_away(q.x, q.y);
-    }
-  };
-  for (const std::uint32_t index : which) {
-    const ContourRuns runs = contours.runs(index);
-    std::size_t run = 0;
-    for (std::size_t d = 0; d < runs.directions; ++d) {
-      for (const std::size_t end = run + runs.counts[d]; run < end; ++run) {
-        for (std::uint32_t i = 0; i < runs.lengths[run]; ++i) {
-          take_away_normal(view.layout->directions()[d],
-                           view.layout->pixel(d, runs.begins[run] + i));
-        }
-      }
-    }
-    for (const RowSpan& span : contours.spans(index)) {
-      for (int x = span.begin; x < span.end; ++x) take_away(x, span.row);
-    }
-  }
-  block->points.clear();
-  for (const EdgePoint p : before.block().points) {
-    if ((labels.at(p.x, p.y) & kForeground) != 0) block->points.push_back(p);
-  }
   const std::size_t camera = static_cast<std::size_t>(&view - views_.data());
   const auto workshop =
       workshops_[camera]->take([&] { return std::make_unique<Workshop>(view.layout); });
-  workshop->transform.run(block->points, block->planes);
-  return std::make_shared<const EdgeEvidence>(before.layout(), before.background(),
-                                              std::move(block), before.blank(), true);
+  EdgeEvidence::Left left;
+  left.points.assign(before.points().begin(), before.points().end());
+  std::vector<cv::Rect> removed;
+  for (const std::uint32_t index : which) {
+    const cv::Rect box = take_away(before, contours, index, *workshop, left.points);
+    if (!box.empty()) removed.push_back(box);
+  }
+  left.patches = patched(*view.layout, {before.patches().begin(), before.patches().end()}, removed,
+                         left.points, workshop->transform);
+  return std::make_shared<const EdgeEvidence>(before, std::move(left));
+}
+
+cv::Rect Edges::take_away(const EdgeEvidence& evidence, const EdgeTemplates& contours,
+                          std::size_t index, Workshop& workshop, std::vector<EdgePoint>& points) {
+  const PlaneLayout& layout = *evidence.layout();
+  const LabelImage& labels = evidence.block().labels;
+  std::vector<cv::Point> marked;
+  const auto mark = [&](int x, int y) {
+    if ((labels.at(x, y) & kForeground) == 0 || workshop.taken(y, x) != 0) return;
+    workshop.taken(y, x) = 1;
+    marked.emplace_back(x, y);
+  };
+  // along the normal, which is a line of the direction, to both sides
+  const auto mark_normal = [&](std::size_t d, cv::Point p) {
+    const Direction& direction = layout.directions()[d];
+    const cv::Size size = layout.size();
+    const int rows = direction.steep ? size.height : size.width;
+    const int columns = direction.steep ? size.width : size.height;
+    const int row = direction.steep ? p.y : p.x, column = direction.steep ? p.x : p.y;
+    const auto mark_at = [&](int r, int c) {
+      if (c >= 0 && c < columns) direction.steep ? mark(c, r) : mark(r, c);
+    };
+    int c = column;
+    for (int r = row; r < std::min(row + direction.gate + 1, rows); ++r) {
+      if (r > row) c += workshop.transform.drift(d, r);
+      mark_at(r, c);
+    }
+    c = column;
+    for (int r = row - 1; r >= std::max(row - direction.gate, 0); --r) {
+      c -= workshop.transform.drift(d, r + 1);
+      mark_at(r, c);
+    }
+  };
+  const ContourRuns runs = contours.runs(index);
+  std::size_t run = 0;
+  for (std::size_t d = 0; d < runs.directions; ++d) {
+    for (const std::size_t end = run + runs.counts[d]; run < end; ++run) {
+      for (std::uint32_t i = 0; i < runs.lengths[run]; ++i) {
+        mark_normal(d, layout.pixel(d, runs.begins[run] + i));
+      }
+    }
+  }
+  for (const RowSpan& span : contours.spans(index)) {
+    for (int x = span.begin; x < span.end; ++x) mark(x, span.row);
+  }
+  cv::Rect box;
+  std::erase_if(points, [&](const EdgePoint p) {
+    if (workshop.taken(p.y, p.x) == 0) return false;
+    box |= cv::Rect(p.x, p.y, 1, 1);
+    return true;
+  });
+  for (const cv::Point p : marked) workshop.taken(p) = 0;
+  return box;
 }
 
 }  // namespace plaza::edges

@@ -37,13 +37,14 @@ cv::Vec3b color_of(double turn, double share) {
 }
 
 /// Nearness in [0, 1]: 1 on an edge, 0 beyond the gate.
-double nearness(const ByteBlock& planes, const PlaneLayout& layout, std::size_t d, int x, int y) {
-  return static_cast<double>(planes.data()[layout.offset(d, x, y)]) /
-         (layout.directions()[d].gate + 1);
+double nearness(const EdgeEvidence& evidence, std::size_t d, int x, int y) {
+  return static_cast<double>(evidence.nearness(d, x, y)) /
+         (evidence.layout()->directions()[d].gate + 1);
 }
 
 /// Each pixel in the colour of the direction in which an edge is nearest.
-cv::Mat directions_of(const ByteBlock& planes, const PlaneLayout& layout) {
+cv::Mat directions_of(const EdgeEvidence& evidence) {
+  const PlaneLayout& layout = *evidence.layout();
   cv::Mat3b image = black(layout.size());
   const std::size_t count = layout.directions().size();
   for (int y = 0; y < image.rows; ++y) {
@@ -51,7 +52,7 @@ cv::Mat directions_of(const ByteBlock& planes, const PlaneLayout& layout) {
       std::size_t best = 0;
       double most = 0;
       for (std::size_t d = 0; d < count; ++d) {
-        const double near = nearness(planes, layout, d, x, y);
+        const double near = nearness(evidence, d, x, y);
         if (near > most) most = near, best = d;
       }
       if (most == 1) {
@@ -65,7 +66,8 @@ cv::Mat directions_of(const ByteBlock& planes, const PlaneLayout& layout) {
 }
 
 /// All planes side by side, each as large as fits (Figure 4.7c).
-cv::Mat transform_of(const ByteBlock& planes, const PlaneLayout& layout) {
+cv::Mat transform_of(const EdgeEvidence& evidence) {
+  const PlaneLayout& layout = *evidence.layout();
   cv::Mat3b image = black(layout.size());
   const std::size_t count = layout.directions().size();
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
@@ -78,7 +80,7 @@ cv::Mat transform_of(const ByteBlock& planes, const PlaneLayout& layout) {
     cv::Mat3b plane = black(layout.size());
     for (int y = 0; y < plane.rows; ++y) {
       for (int x = 0; x < plane.cols; ++x) {
-        const double near = nearness(planes, layout, d, x, y);
+        const double near = nearness(evidence, d, x, y);
         if (near > 0)
           plane(y, x) = color_of(static_cast<double>(d) / static_cast<double>(count), near);
       }
@@ -95,15 +97,28 @@ cv::Mat transform_of(const ByteBlock& planes, const PlaneLayout& layout) {
 
 }  // namespace
 
+int EdgeEvidence::nearness(std::size_t direction, int x, int y) const {
+  for (const auto& patch : patches()) {
+    if (patch->valid().contains({x, y})) return patch->bytes()[patch->offset(direction, x, y)];
+  }
+  return block_->planes.data()[layout_->offset(direction, x, y)];
+}
+
 std::vector<Picture> EdgeEvidence::pictures() const {
   std::vector<Picture> pictures;
   LabelImage labels(block_->labels.size());
   labels.copy(block_->labels);
+  const auto explain = [&](const EdgePoint& p) {
+    std::uint8_t& label = labels.at(p.x, p.y);
+    label = static_cast<std::uint8_t>((label & ~kForeground) | kExplained);
+  };
+  if (left_ != nullptr) {
+    for (const EdgePoint p : block_->points) explain(p);
+    for (const EdgePoint p : left_->points) labels.at(p.x, p.y) = block_->labels.at(p.x, p.y);
+  }
   if (hidden_ != nullptr) {
     for (const EdgePoint p : block_->points) {
-      if (!hidden_->at(p.x, p.y)) continue;
-      std::uint8_t& label = labels.at(p.x, p.y);
-      label = static_cast<std::uint8_t>((label & ~kForeground) | kExplained);
+      if (hidden_->at(p.x, p.y)) explain(p);
     }
   }
   if (background_ != nullptr && background_->known) {
@@ -116,10 +131,8 @@ std::vector<Picture> EdgeEvidence::pictures() const {
                       picture_of(labels, kSegmented, 0, kSegmented)});
   pictures.push_back({"linked-edges", "foreground (linked: yellow, explained: grey)",
                       picture_of(labels, kForeground, kExplained, kSegmented)});
-  pictures.push_back({"directions", "where an edge is nearest, by colour",
-                      directions_of(block_->planes, *layout_)});
-  pictures.push_back({"transform", "the transform, one tile per direction",
-                      transform_of(block_->planes, *layout_)});
+  pictures.push_back({"directions", "where an edge is nearest, by colour", directions_of(*this)});
+  pictures.push_back({"transform", "the transform, one tile per direction", transform_of(*this)});
   return pictures;
 }
 

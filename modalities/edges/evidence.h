@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "modalities/common/opencl.h"
 #include "modalities/edges/background.h"
 #include "modalities/edges/fast_transform.h"
 #include "modalities/edges/hidden_region.h"
+#include "modalities/edges/plane_patch.h"
 #include "modalities/edges/pool.h"
 #include "modalities/edges/segmentation.h"
 #include "plaza/data/evidence.h"
@@ -26,16 +28,23 @@ struct EvidenceBlock {
 class EdgeEvidence final : public Evidence {
  public:
   /// `background` null: none is subtracted. `blank`: the image shows nothing at all (one colour),
-  /// or its background is unknown; nothing can be told from it. `explained`: edges were taken away.
+  /// or its background is unknown; nothing can be told from it.
   EdgeEvidence(std::shared_ptr<const PlaneLayout> layout,
                std::shared_ptr<const ViewBackground> background, Pool<EvidenceBlock>::Handle block,
-               bool blank, bool explained)
+               bool blank)
       : layout_(std::move(layout)),
         background_(std::move(background)),
         block_(std::move(block)),
-        blank_(blank),
-        explained_(explained) {}
+        blank_(blank) {}
 
+  /// What is left of the edges when somebody accounts for the others.
+  struct Left {
+    std::vector<EdgePoint> points;
+    PlanePatches patches;  ///< where their transform isn't that of all
+  };
+  EdgeEvidence(const EdgeEvidence& other, Left left) : EdgeEvidence(other) {
+    left_ = std::make_shared<const Left>(std::move(left));
+  }
   /// The same edges, a part of which counts nowhere.
   EdgeEvidence(const EdgeEvidence& other, std::shared_ptr<const HiddenRegion> hidden)
       : EdgeEvidence(other) {
@@ -47,13 +56,20 @@ class EdgeEvidence final : public Evidence {
 
   const std::shared_ptr<const PlaneLayout>& layout() const { return layout_; }
   const std::shared_ptr<const ViewBackground>& background() const { return background_; }
+  /// As the image was prepared.
   const EvidenceBlock& block() const { return *block_; }
+  std::span<const EdgePoint> points() const { return left_ ? left_->points : block_->points; }
+  std::span<const std::shared_ptr<const PlanePatch>> patches() const {
+    return left_ ? std::span(left_->patches) : std::span<const std::shared_ptr<const PlanePatch>>();
+  }
+  /// The transform's value at a pixel: gate + 1 on an edge, 0 beyond the gate.
+  int nearness(std::size_t direction, int x, int y) const;
   /// The planes on the OpenCL device, made when first asked for.
   const opencl::OnDevice<cv::UMat>& on_device() const { return *on_device_; }
   const HiddenRegion* hidden() const { return hidden_.get(); }  ///< null: all counts
   bool blank() const { return blank_; }
   /// Whether somebody accounts for a part of it.
-  bool explained() const { return explained_ || hidden_ != nullptr; }
+  bool explained() const { return left_ != nullptr || hidden_ != nullptr; }
 
  private:
   EdgeEvidence(const EdgeEvidence&) = default;
@@ -61,8 +77,9 @@ class EdgeEvidence final : public Evidence {
   std::shared_ptr<const PlaneLayout> layout_;
   std::shared_ptr<const ViewBackground> background_;
   std::shared_ptr<const EvidenceBlock> block_;
+  std::shared_ptr<const Left> left_;  ///< null: all
   std::shared_ptr<const HiddenRegion> hidden_;
-  bool blank_, explained_;
+  bool blank_;
   std::shared_ptr<const opencl::OnDevice<cv::UMat>> on_device_ =
       std::make_shared<const opencl::OnDevice<cv::UMat>>();
 };

@@ -116,18 +116,40 @@ FastTransform::FastTransform(std::shared_ptr<const PlaneLayout> layout, Sweep sw
   }
 }
 
+void FastTransform::draw(const PlaneLayout& layout, cv::Point origin, std::uint8_t value) {
+  const std::size_t wide = layout.wide_stride(), tall = layout.tall_stride();
+  for (const EdgePoint p : drawn_) {
+    const auto x = static_cast<std::size_t>(p.x - origin.x);
+    const auto y = static_cast<std::size_t>(p.y - origin.y);
+    wide_.data()[y * wide + x] = value;
+    tall_.data()[x * tall + y] = value;
+  }
+}
+
 void FastTransform::run(std::span<const EdgePoint> edges, ByteBlock& block) {
-  const std::size_t wide = layout_->wide_stride(), tall = layout_->tall_stride();
-  const auto draw = [&](std::uint8_t value) {
-    for (const EdgePoint p : drawn_) {
-      wide_.data()[static_cast<std::size_t>(p.y) * wide + static_cast<std::size_t>(p.x)] = value;
-      tall_.data()[static_cast<std::size_t>(p.x) * tall + static_cast<std::size_t>(p.y)] = value;
-    }
-  };
-  draw(0);  // what the last call drew is a twentieth of the image
+  if (block.size() < layout_->bytes()) throw std::invalid_argument("block is too small");
+  draw(*layout_, {}, 0);  // what the last call drew is a twentieth of the image
   drawn_.assign(edges.begin(), edges.end());
-  draw(255);
-  sweep_planes(block);
+  draw(*layout_, {}, 255);
+  sweep_planes(*layout_, {}, block.data());
+}
+
+void FastTransform::run(std::span<const EdgePoint> edges, const cv::Rect& window,
+                        const PlaneLayout& part, std::uint8_t* planes) {
+  if ((window & cv::Rect({}, layout_->size())) != window || window.size() != part.size()) {
+    throw std::invalid_argument("a window that isn't inside the image");
+  }
+  draw(*layout_, {}, 0);
+  drawn_.clear();
+  for (const EdgePoint p : edges) {
+    if (window.contains({p.x, p.y})) drawn_.push_back(p);
+  }
+  std::memset(planes, 0, kMargin);
+  std::memset(planes + part.bytes() - kMargin, 0, kMargin);
+  draw(part, window.tl(), 255);
+  sweep_planes(part, window.tl(), planes);
+  draw(part, window.tl(), 0);
+  drawn_.clear();
 }
 
 void FastTransform::run(const cv::Mat1b& edges, ByteBlock& block) {
@@ -137,18 +159,19 @@ void FastTransform::run(const cv::Mat1b& edges, ByteBlock& block) {
   run(found_, block);
 }
 
-void FastTransform::sweep_planes(ByteBlock& block) {
-  if (block.size() < layout_->bytes()) throw std::invalid_argument("block is too small");
-  const cv::Size size = layout_->size();
-  for (std::size_t d = 0; d < layout_->directions().size(); ++d) {
-    const Direction& direction = layout_->directions()[d];
+void FastTransform::sweep_planes(const PlaneLayout& layout, cv::Point origin,
+                                 std::uint8_t* planes) {
+  const cv::Size size = layout.size();
+  for (std::size_t d = 0; d < layout.directions().size(); ++d) {
+    const Direction& direction = layout.directions()[d];
     SweepTask task;
-    task.plane = block.data() + layout_->plane_begin(d);
+    task.plane = planes + layout.plane_begin(d);
     task.edges = direction.steep ? wide_.data() : tall_.data();
     task.rows = direction.steep ? size.height : size.width;
     task.columns = direction.steep ? size.width : size.height;
-    task.stride = direction.steep ? layout_->wide_stride() : layout_->tall_stride();
-    task.drift = drift_.data() + d * longest_;
+    task.stride = direction.steep ? layout.wide_stride() : layout.tall_stride();
+    task.drift = drift_.data() + d * longest_ +
+                 static_cast<std::size_t>(direction.steep ? origin.y : origin.x);
     task.peak = static_cast<std::uint8_t>(direction.gate + 1);
     sweep_(task);
   }

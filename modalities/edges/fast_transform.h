@@ -86,10 +86,22 @@ class FastTransform {
   /// The same from an 8-bit image, not 0 at edges.
   void run(const cv::Mat1b& edges, ByteBlock& block);
 
+  /// The same of a part of the image: fills `planes`, of `part.bytes()` and nothing in particular
+  /// before, with the transform of the edges inside `window`. `part` has its size and the layout's
+  /// directions. Edges outside don't count, so what lies within the gate of its border may be
+  /// wrong.
+  void run(std::span<const EdgePoint> edges, const cv::Rect& window, const PlaneLayout& part,
+           std::uint8_t* planes);
+
   const PlaneLayout& layout() const { return *layout_; }
+  /// How far the lines of a direction move beside, from row `row` - 1 of its plane to row `row`.
+  int drift(std::size_t direction, int row) const {
+    return drift_[direction * longest_ + static_cast<std::size_t>(row)];
+  }
 
  private:
-  void sweep_planes(ByteBlock& block);
+  void draw(const PlaneLayout& layout, cv::Point origin, std::uint8_t value);
+  void sweep_planes(const PlaneLayout& layout, cv::Point origin, std::uint8_t* planes);
 
   std::shared_ptr<const PlaneLayout> layout_;
   Sweep sweep_;

@@ -22,6 +22,7 @@ void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& opt
   const auto count = static_cast<int>(layout_->directions().size());
   const cv::Rect inside({}, layout_->size());
   std::vector<std::vector<std::uint32_t>> points(static_cast<std::size_t>(count));
+  cv::Rect box;
   for (const ContourPoint& point : silhouette.contour) {
     // compared as floats: what lies far outside doesn't fit an int
     const float x = std::round(point.pixel.x()), y = std::round(point.pixel.y());
@@ -29,11 +30,13 @@ void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& opt
                       y < static_cast<float>(inside.height);
     if (!seen || !point.normal.allFinite()) continue;
     const auto direction = static_cast<std::size_t>(nearest_direction(point.normal, count));
+    box |= cv::Rect(static_cast<int>(x), static_cast<int>(y), 1, 1);
     points[direction].push_back(
         layout_->offset(direction, static_cast<int>(x), static_cast<int>(y)));
   }
   std::size_t seen = 0;
-  for (std::vector<std::uint32_t>& of_direction : points) {
+  for (std::size_t d = 0; d < points.size(); ++d) {
+    std::vector<std::uint32_t>& of_direction = points[d];
     std::sort(of_direction.begin(), of_direction.end());
     const std::size_t first = begins_.size();
     for (const std::uint32_t point : of_direction) {
@@ -44,12 +47,16 @@ void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& opt
       } else {
         begins_.push_back(point);
         lengths_.push_back(1);
+        const cv::Point pixel = layout_->pixel(d, point);
+        rows_.push_back(
+            static_cast<std::uint16_t>(layout_->directions()[d].steep ? pixel.y : pixel.x));
       }
     }
     counts_.push_back(static_cast<std::uint32_t>(begins_.size() - first));
     seen += of_direction.size();
   }
   first_run_.push_back(begins_.size());
+  boxes_.push_back(box);
   points_.push_back(static_cast<std::uint32_t>(seen));
   tells_.push_back(silhouette.inside_share >= options.min_visible &&
                    seen >= static_cast<std::size_t>(options.min_points));

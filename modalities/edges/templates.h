@@ -50,6 +50,12 @@ class EdgeTemplates final : public TemplateBatch {
     return {begins_.data() + first_run_[index], lengths_.data() + first_run_[index],
             counts_.data() + index * directions, peaks_.data(), directions};
   }
+  /// [run] the row of the plane that it lies in.
+  std::span<const std::uint16_t> rows(std::size_t index) const {
+    return {rows_.data() + first_run_[index], rows_.data() + first_run_[index + 1]};
+  }
+  /// Around all its points, in pixels.
+  const cv::Rect& box(std::size_t index) const { return boxes_[index]; }
   /// Those of all templates, one behind the other.
   ContourRuns all_runs() const {
     return {begins_.data(), lengths_.data(), counts_.data(), peaks_.data(), peaks_.size()};
@@ -72,6 +78,8 @@ class EdgeTemplates final : public TemplateBatch {
   std::vector<std::uint8_t> peaks_;        ///< [direction]
   std::vector<std::uint32_t> begins_;      ///< [run]
   std::vector<std::uint8_t> lengths_;      ///< [run]
+  std::vector<std::uint16_t> rows_;        ///< [run]
+  std::vector<cv::Rect> boxes_;            ///< [template]
   std::vector<std::uint32_t> counts_;      ///< [template * directions + direction] runs
   std::vector<std::size_t> first_run_{0};  ///< [template], and the number of all
   std::vector<std::uint32_t> points_;      ///< [template]
@@ -97,6 +105,7 @@ class ContourMatcher {
   /// The template must tell something.
   double log_likelihood(const std::uint8_t* block, const EdgeTemplates& templates,
                         std::size_t index) const;
+  SumContour sum_contour() const { return sum_; }
   /// By the points that aren't hidden; nothing when they are less than `least_share` of all, or
   /// fewer than `least_points`.
   std::optional<double> log_likelihood(const std::uint8_t* block, const HiddenRegion& hidden,

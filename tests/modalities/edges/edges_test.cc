@@ -261,7 +261,7 @@ TEST(Edges, ExplainingTheSilhouetteTakesItsTextureToo) {
     const Edges edges(options, context_of(scene));
     const auto rest =
         edges.explain(edges.prepare(image, 0).evidence, *edges.sample(UprightBox(), person, 0), 0);
-    return dynamic_cast<const EdgeEvidence&>(*rest).block().points.size();
+    return dynamic_cast<const EdgeEvidence&>(*rest).points().size();
   };
   EXPECT_EQ(left(Explains::kSilhouette), 0u);
   EXPECT_GT(left(Explains::kContour), 5u);

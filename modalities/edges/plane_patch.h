@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core/types.hpp>
+#include <span>
+#include <vector>
+
+#include "modalities/edges/contour_sums.h"
+#include "modalities/edges/fast_transform.h"
+#include "modalities/edges/templates.h"
+
+namespace plaza::edges {
+
+/// A part of the oriented distance transform done anew: taking edges away changes nothing beyond
+/// the gate around them, and the rest of the image is not copied.
+class PlanePatch {
+ public:
+  /// The transform of `edges` inside `valid`, a rectangle inside the image. `transform` is of
+  /// `layout`, the whole image's.
+  PlanePatch(const PlaneLayout& layout, const cv::Rect& valid, std::span<const EdgePoint> edges,
+             FastTransform& transform);
+
+  const cv::Rect& valid() const { return valid_; }
+  const std::uint8_t* bytes() const { return bytes_.get(); }
+  /// Index of the byte of a pixel of the image inside valid().
+  std::uint32_t offset(std::size_t direction, int x, int y) const {
+    return layout_.offset(direction, x - window_.x, y - window_.y);
+  }
+
+ private:
+  cv::Rect valid_, window_;  ///< what is right, and what was swept for it
+  PlaneLayout layout_;       ///< of the window
+  std::unique_ptr<std::uint8_t[]> bytes_;
+};
+
+using PlanePatches = std::vector<std::shared_ptr<const PlanePatch>>;
+
+/// Patches for edges that were taken away inside `removed` rectangles, when `edges` are left,
+/// beside `before`, which were right until then. What overlaps becomes one: patches are disjoint.
+PlanePatches patched(const PlaneLayout& layout, PlanePatches before,
+                     std::span<const cv::Rect> removed, std::span<const EdgePoint> edges,
+                     FastTransform& transform);
+
+/// The sums of a template over planes of which a part is patched.
+class PatchedSums {
+ public:
+  /// Everything must outlive the object, which is one thread's.
+  PatchedSums(const std::uint8_t* planes,
+              std::span<const std::shared_ptr<const PlanePatch>> patches, SumContour sum)
+      : planes_(planes), patches_(patches), sum_(sum), parts_(patches.size() + 1) {}
+
+  /// Writes sums[direction].
+  void sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums);
+
+ private:
+  /// Runs of a template in one patch, or in what isn't patched.
+  struct Part {
+    std::vector<std::uint32_t> begins, counts;
+    std::vector<std::uint8_t> lengths;
+  };
+  void split(const EdgeTemplates& templates, std::size_t index);
+
+  const std::uint8_t* planes_;
+  std::span<const std::shared_ptr<const PlanePatch>> patches_;
+  SumContour sum_;
+  std::vector<Part> parts_;        ///< by patch, the last of what isn't patched
+  std::vector<std::size_t> near_;  ///< patches that the template may reach
+  std::vector<ContourSum> of_part_;
+};
+
+}  // namespace plaza::edges
