@@ -90,16 +90,18 @@ void ColorModality::do_match(const Evidence& evidence, const TemplateBatch& temp
     return occupancy ? scale * (1 - *occupancy) * (1 - *occupancy)
                      : std::numeric_limits<double>::quiet_NaN();
   };
+  ColorEvidence::CountMemo& memo = seen.counted(batch);
   if (counter_ && which.size() >= opencl::kLeastTemplates && seen.countable_on_device()) {
     const std::vector<color::TemplateCounts> counts = seen.count(*counter_, batch, which);
     for (std::size_t i = 0; i < which.size(); ++i) {
+      memo.keep(which[i], counts[i]);
       log_likelihood[i] =
           value(color::occupancy(batch.at(which[i]), counts[i], options_.least_visible));
     }
     return;
   }
   for (std::size_t i = 0; i < which.size(); ++i) {
-    log_likelihood[i] = value(seen.occupancy(batch, which[i], options_.least_visible));
+    log_likelihood[i] = value(seen.occupancy(batch, which[i], options_.least_visible, memo));
   }
 }
 

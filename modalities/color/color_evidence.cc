@@ -55,6 +55,7 @@ ColorEvidence::ColorEvidence(const ColorEvidence& other, Patches explained)
       background_(other.background_),
       blind_(other.blind_),
       counts_(other.counts_),
+      memos_(other.memos_),
       explained_(std::move(explained)) {}
 
 const cv::Mat& ColorEvidence::lab() const {
@@ -81,9 +82,14 @@ std::vector<Picture> ColorEvidence::pictures() const {
 }
 
 std::optional<double> ColorEvidence::occupancy(const SpanTemplates& templates, std::size_t index,
-                                               double least_visible) const {
+                                               double least_visible, CountMemo& memo) const {
   if (state_ != State::kUsable) return std::nullopt;
-  return color::occupancy(templates, index, {*counts_, blind_->counts, explained_}, least_visible);
+  if (!memo.knows(index)) {
+    const TemplateCounts counts = color::count(templates, index, *counts_, blind_->counts);
+    memo.keep(index, counts);
+    return color::occupancy(templates, index, counts, explained_, least_visible);
+  }
+  return color::occupancy(templates, index, memo.at(index), explained_, least_visible);
 }
 
 std::vector<TemplateCounts> ColorEvidence::count(const OpenclCounter& device,

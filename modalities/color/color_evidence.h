@@ -11,6 +11,7 @@
 #include "modalities/color/occupancy.h"
 #include "modalities/color/opencl_counter.h"
 #include "modalities/color/segmenter.h"
+#include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
 #include "plaza/data/evidence.h"
 
@@ -51,9 +52,19 @@ class ColorEvidence final : public Evidence {
   /// count() for templates which[i], by OpenCL; the foreground goes to the device once.
   std::vector<TemplateCounts> count(const OpenclCounter& device, const SpanTemplates& templates,
                                     std::span<const std::uint32_t> which) const;
-  /// See plaza::color::occupancy(); nothing when the evidence isn't usable either.
+  using CountMemo = Memo<TemplateCounts>;
+  /// What was counted in these templates before anything was explained.
+  CountMemo& counted(const SpanTemplates& templates) const {
+    return memos_->of(templates.serial(), templates.size());
+  }
+  /// See plaza::color::occupancy(); nothing when the evidence isn't usable either. `memo` is
+  /// counted() of the templates.
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
-                                  double least_visible) const;
+                                  double least_visible, CountMemo& memo) const;
+  std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
+                                  double least_visible) const {
+    return occupancy(templates, index, least_visible, counted(templates));
+  }
   /// The evidence without the foreground inside templates and their gaps, whose pixels count
   /// nowhere from then on. Copies no image.
   std::shared_ptr<const ColorEvidence> without(const SpanTemplates& templates,
@@ -69,8 +80,9 @@ class ColorEvidence final : public Evidence {
   std::shared_ptr<const Background> background_;
   std::shared_ptr<const Blind> blind_;
   std::shared_ptr<const AreaCounts> counts_;  ///< of foreground, without what is blind
-  opencl::OnDevice<cv::UMat> on_device_;      ///< counts_
-  Patches explained_;                         ///< in the order in which they were accepted
+  std::shared_ptr<Memos<TemplateCounts>> memos_ = std::make_shared<Memos<TemplateCounts>>();
+  opencl::OnDevice<cv::UMat> on_device_;  ///< counts_
+  Patches explained_;                     ///< in the order in which they were accepted
   mutable std::once_flag lab_once_;
   mutable cv::Mat lab_;
 };

@@ -36,17 +36,9 @@ std::uint32_t count_in(std::span<const BoundaryRun> runs, const AreaCounts& coun
   return sum;
 }
 
-Counts counts_of(std::span<const BoundaryRun> runs, const Countable& seen, const cv::Rect& box) {
-  Counts counts;
-  counts.set = count_in(runs, seen.foreground);
-  if (!seen.blind.empty()) counts.hidden = count_in(runs, seen.blind);
-  for (const auto& patch : seen.explained) {
-    if ((patch->box() & box).empty()) continue;
-    const Counts away = patch->count(runs);
-    counts.set -= away.set;
-    counts.hidden += away.hidden;
-  }
-  return counts;
+bool tells(const SpanTemplate& shape, const Counts& inner, double least_visible) {
+  const std::uint32_t inside = shape.inner_area - inner.hidden;
+  return inside > 0 && inside >= least_visible * static_cast<double>(shape.full_area);
 }
 
 }  // namespace
@@ -163,20 +155,21 @@ void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
   templates_.push_back(t);
 }
 
-TemplateCounts count(const SpanTemplates& templates, std::size_t index, const Countable& seen) {
+TemplateCounts count(const SpanTemplates& templates, std::size_t index,
+                     const AreaCounts& foreground, const AreaCounts& blind) {
   const SpanTemplate& t = templates.at(index);
-  return {counts_of(templates.runs(t.inner, t.near), seen, t.outer_box),
-          counts_of(templates.runs(t.near, t.outer), seen, t.outer_box),
-          counts_of(templates.runs(t.outer, t.end), seen, t.outer_box)};
+  const auto counts = [&](std::uint32_t begin, std::uint32_t end) {
+    const std::span<const BoundaryRun> runs = templates.runs(begin, end);
+    return Counts{count_in(runs, foreground), blind.empty() ? 0 : count_in(runs, blind)};
+  };
+  return {counts(t.inner, t.near), counts(t.near, t.outer), counts(t.outer, t.end)};
 }
 
 std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts& counts,
                                 double least_visible) {
-  const std::uint32_t inside = shape.inner_area - counts.inner.hidden;
-  if (inside == 0 || inside < least_visible * static_cast<double>(shape.full_area)) {
-    return std::nullopt;
-  }
-  const double share = static_cast<double>(counts.inner.set) / inside;
+  if (!tells(shape, counts.inner, least_visible)) return std::nullopt;
+  const double share =
+      static_cast<double>(counts.inner.set) / (shape.inner_area - counts.inner.hidden);
   const std::uint32_t ring =
       shape.outer_area - shape.near_area - (counts.outer.hidden - counts.near.hidden);
   if (ring == 0) return share;
@@ -184,8 +177,29 @@ std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts&
 }
 
 std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
+                                TemplateCounts counts,
+                                std::span<const std::shared_ptr<const ExplainedPatch>> explained,
+                                double least_visible) {
+  const SpanTemplate& t = templates.at(index);
+  const auto take_away = [&](Counts& from, std::uint32_t begin, std::uint32_t end) {
+    for (const auto& patch : explained) {
+      if ((patch->box() & t.outer_box).empty()) continue;
+      const Counts away = patch->count(templates.runs(begin, end));
+      from.set -= away.set;
+      from.hidden += away.hidden;
+    }
+  };
+  take_away(counts.inner, t.inner, t.near);
+  if (!tells(t, counts.inner, least_visible)) return std::nullopt;
+  take_away(counts.near, t.near, t.outer);
+  take_away(counts.outer, t.outer, t.end);
+  return occupancy(t, counts, least_visible);
+}
+
+std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                 const Countable& seen, double least_visible) {
-  return occupancy(templates.at(index), count(templates, index, seen), least_visible);
+  return occupancy(templates, index, count(templates, index, seen.foreground, seen.blind),
+                   seen.explained, least_visible);
 }
 
 }  // namespace plaza::color

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
 #include "plaza/component/modality.h"
 #include "plaza/component/models.h"
@@ -84,6 +85,7 @@ class SpanTemplates final : public TemplateBatch {
   std::span<const BoundaryRun> runs(std::uint32_t begin, std::uint32_t end) const {
     return std::span(runs_).subspan(begin, end - begin);
   }
+  const BatchSerial& serial() const { return serial_; }
   /// The same on the OpenCL device, made when first asked for; no template may be added then.
   const opencl::OnDevice<DeviceRegions>& on_device() const { return on_device_; }
 
@@ -93,6 +95,7 @@ class SpanTemplates final : public TemplateBatch {
   cv::Size image_;
   std::vector<SpanTemplate> templates_;
   std::vector<BoundaryRun> runs_;
+  BatchSerial serial_;
   opencl::OnDevice<DeviceRegions> on_device_;
 };
 
@@ -117,10 +120,17 @@ struct TemplateCounts {
   Counts inner, near, outer;
 };
 
-TemplateCounts count(const SpanTemplates& templates, std::size_t index, const Countable& seen);
+/// Where nothing is explained.
+TemplateCounts count(const SpanTemplates& templates, std::size_t index,
+                     const AreaCounts& foreground, const AreaCounts& blind);
 
 /// What follows from the counts of a template, see occupancy().
 std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts& counts,
+                                double least_visible);
+/// The same after some people were explained; `counts` are those where nobody is.
+std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
+                                TemplateCounts counts,
+                                std::span<const std::shared_ptr<const ExplainedPatch>> explained,
                                 double least_visible);
 
 /// Share of foreground inside the silhouette minus its share in the ring, in [-1, 1]. Nothing when

@@ -251,6 +251,7 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
   const EdgeTemplates& contours = contours_of(templates, edges);
   const ContourMatcher& matcher = *view_of(edges).matcher;
   const std::uint8_t* planes = edges.block().planes.data();
+  Memo<double>& memo = edges.matched(contours);
   if (options_.device == Device::kOpencl && which.size() >= opencl::kLeastTemplates &&
       !edges.explained() && !edges.blank()) {
     const auto& device = device_.get([] { return std::make_unique<const OpenclMatcher>(); });
@@ -264,25 +265,34 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
               ? matcher.log_likelihood_of(std::span(sums).subspan(i * directions, directions),
                                           contours.points(which[i]))
               : std::numeric_limits<double>::quiet_NaN();
+      memo.keep(which[i], log_likelihood[i]);
     }
     return;
   }
   PatchedSums patched(planes, edges.patches(), matcher.sum_contour());
   std::vector<ContourSum> sums(edges.layout()->directions().size());
   for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::uint32_t index = which[i];
     // asked for while the one before is summed up: the planes of all directions fill no near cache
-    if (i + 1 < which.size()) ContourMatcher::fetch(planes, contours, which[i + 1]);
+    if (i + 1 < which.size() && !edges.explained() && !memo.knows(which[i + 1])) {
+      ContourMatcher::fetch(planes, contours, which[i + 1]);
+    }
     log_likelihood[i] = std::numeric_limits<double>::quiet_NaN();
-    if (edges.blank() || !contours.tells(which[i])) continue;
-    if (!edges.patches().empty()) {
-      patched.sum(contours, which[i], sums.data());
-      log_likelihood[i] = matcher.log_likelihood_of(sums, contours.points(which[i]));
-    } else if (edges.hidden() == nullptr) {
-      log_likelihood[i] = matcher.log_likelihood(planes, contours, which[i]);
-    } else if (const auto found =
-                   matcher.log_likelihood(planes, *edges.hidden(), contours, which[i],
-                                          options_.min_visible, options_.min_points)) {
-      log_likelihood[i] = *found;
+    if (edges.blank() || !contours.tells(index)) continue;
+    if (edges.hidden() != nullptr) {
+      const auto found = matcher.log_likelihood(planes, *edges.hidden(), contours, index,
+                                                options_.min_visible, options_.min_points);
+      if (found) log_likelihood[i] = *found;
+    } else if (patched.touches(contours, index)) {
+      patched.sum(contours, index, sums.data());
+      log_likelihood[i] = matcher.log_likelihood_of(sums, contours.points(index));
+    } else {
+      if (!memo.knows(index)) {
+        log_likelihood[i] = matcher.log_likelihood(planes, contours, index);
+        memo.keep(index, log_likelihood[i]);
+      } else {
+        log_likelihood[i] = memo.at(index);
+      }
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
 #include "modalities/edges/background.h"
 #include "modalities/edges/fast_transform.h"
@@ -64,6 +65,10 @@ class EdgeEvidence final : public Evidence {
   }
   /// The transform's value at a pixel: gate + 1 on an edge, 0 beyond the gate.
   int nearness(std::size_t direction, int x, int y) const;
+  /// Log-likelihoods that were found before anything was taken away.
+  Memo<double>& matched(const EdgeTemplates& templates) const {
+    return memos_->of(templates.serial(), templates.size());
+  }
   /// The planes on the OpenCL device, made when first asked for.
   const opencl::OnDevice<cv::UMat>& on_device() const { return *on_device_; }
   const HiddenRegion* hidden() const { return hidden_.get(); }  ///< null: all counts
@@ -80,6 +85,7 @@ class EdgeEvidence final : public Evidence {
   std::shared_ptr<const Left> left_;  ///< null: all
   std::shared_ptr<const HiddenRegion> hidden_;
   bool blank_;
+  std::shared_ptr<Memos<double>> memos_ = std::make_shared<Memos<double>>();
   std::shared_ptr<const opencl::OnDevice<cv::UMat>> on_device_ =
       std::make_shared<const opencl::OnDevice<cv::UMat>>();
 };

@@ -54,13 +54,16 @@ PlanePatches patched(const PlaneLayout& layout, PlanePatches before,
   return before;
 }
 
-void PatchedSums::sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums) {
+bool PatchedSums::touches(const EdgeTemplates& templates, std::size_t index) {
   near_.clear();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (!(patches_[i]->valid() & templates.box(index)).empty()) near_.push_back(i);
   }
+  return !near_.empty();
+}
+
+void PatchedSums::sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums) {
   const ContourRuns whole = templates.runs(index);
-  if (near_.empty()) return sum_(planes_, whole, sums);
   split(templates, index);
   of_part_.resize(whole.directions);
   const auto runs_of = [&](const Part& part) {

@@ -50,7 +50,9 @@ class PatchedSums {
               std::span<const std::shared_ptr<const PlanePatch>> patches, SumContour sum)
       : planes_(planes), patches_(patches), sum_(sum), parts_(patches.size() + 1) {}
 
-  /// Writes sums[direction].
+  /// Whether any of its points may be in a patch.
+  bool touches(const EdgeTemplates& templates, std::size_t index);
+  /// Writes sums[direction] of the template that touches() was last asked for, and that does.
   void sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums);
 
  private:

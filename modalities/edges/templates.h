@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
 #include "modalities/edges/contour_sums.h"
 #include "modalities/edges/fast_transform.h"
@@ -61,6 +62,7 @@ class EdgeTemplates final : public TemplateBatch {
     return {begins_.data(), lengths_.data(), counts_.data(), peaks_.data(), peaks_.size()};
   }
   std::span<const std::uint32_t> all_counts() const { return counts_; }
+  const BatchSerial& serial() const { return serial_; }
   /// The same on the OpenCL device, made when first asked for; no template may be added then.
   const opencl::OnDevice<DeviceContours>& on_device() const { return on_device_; }
   /// First bytes of all its runs.
@@ -86,6 +88,7 @@ class EdgeTemplates final : public TemplateBatch {
   std::vector<std::uint8_t> tells_;        ///< [template]
   std::vector<RowSpan> spans_;
   std::vector<std::size_t> span_begins_{0};
+  BatchSerial serial_;
   opencl::OnDevice<DeviceContours> on_device_;
 };
 

@@ -136,7 +136,7 @@ TEST(OccupancyTest, UprightBoundariesAreFewRuns) {
   s.inside_share = 1;
   s.box = {10, 5, 10, 20};
   templates.add(s, {0, 0.1});
-  EXPECT_EQ(count(templates, 0, {all, {}, {}}).inner.set, 180U);
+  EXPECT_EQ(count(templates, 0, all, {}).inner.set, 180U);
 }
 
 TEST(OccupancyTest, PartsOutsideTheImageAreNotVisible) {

@@ -116,7 +116,7 @@ TEST_F(OpenclTest, CountsAreThoseOfTheCpu) {
       ASSERT_EQ(counts.size(), which.size());
       std::uint32_t set = 0, hidden = 0;
       for (std::size_t i = 0; i < which.size(); ++i) {
-        const TemplateCounts expected = count(templates, which[i], {foreground, blind->counts, {}});
+        const TemplateCounts expected = count(templates, which[i], foreground, blind->counts);
         for (const auto region :
              {&TemplateCounts::inner, &TemplateCounts::near, &TemplateCounts::outer}) {
           EXPECT_EQ((counts[i].*region).set, (expected.*region).set) << i;
