@@ -94,6 +94,7 @@ void put(ByteWriter& out, const Observations& observations, const FeatureLoaders
     put(out, o.position_m);
     for (const double value : o.covariance_m2.reshaped()) out.real(value);
     out.real(o.probability);
+    out.real(o.score);
     out.optional(o.heading_rad);
     put(out, o.boxes);
     if (!put_features(out, o.features, loaders)) throw Unkept{};
@@ -103,11 +104,12 @@ void put(ByteWriter& out, const Observations& observations, const FeatureLoaders
 }
 
 void get(ByteReader& in, Observations& observations, const FeatureLoaders& loaders) {
-  observations.items.resize(in.count(73));
+  observations.items.resize(in.count(81));
   for (Observation& o : observations.items) {
     o.position_m = vector_of(in);
     for (double& value : o.covariance_m2.reshaped()) value = in.real();
     o.probability = in.real();
+    o.score = in.real();
     o.heading_rad = in.optional();
     o.boxes = boxes_of(in);
     o.features = features_of(in, loaders);

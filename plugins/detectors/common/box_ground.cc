@@ -193,6 +193,7 @@ std::vector<Observation> BoxGround::observe(std::size_t camera,
     o.position_m = standing->position_m;
     o.covariance_m2 = standing->covariance_m2;
     o.probability = curve_(candidates[i].score);
+    o.score = candidates[i].score;
     o.boxes.push_back({.camera = camera, .box = box, .score = candidates[i].score});
     observations.push_back(std::move(o));
   }

@@ -124,6 +124,7 @@ Observation GroundFusion::fused(const MeasurementGroup& group,
     log_odds += std::log1p(-options_.detection_probability * share);
   }
   person.probability = logistic(log_odds);
+  person.score = log_odds;
   return person;
 }
 

@@ -335,6 +335,7 @@ Observation HierarchicalGrid::observation_of(const FoundPerson& person) const {
   o.position_m = person.peak.position_m;
   o.covariance_m2 = person.peak.covariance_m2;
   o.probability = curve_(person.score);
+  o.score = person.score;
   Body body = shape_->body();
   const double scale = search_->sizes()[person.body.size].scale;
   body.height_m *= scale;

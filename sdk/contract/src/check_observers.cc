@@ -24,6 +24,23 @@ void check_boxes(const Observations& observations, const Stage& stage, Findings&
   }
 }
 
+/// A detector's probability is a non-decreasing function of its score, over all frames.
+void check_scores(std::vector<Observation> all, Findings& findings) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Observation& a, const Observation& b) { return a.score < b.score; });
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const bool same = all[i - 1].score == all[i].score;
+    const bool good = same ? all[i - 1].probability == all[i].probability
+                           : all[i - 1].probability <= all[i].probability;
+    if (good) continue;
+    findings.add("probability is no rising function of the score: " +
+                 std::to_string(all[i - 1].probability) + " at " +
+                 std::to_string(all[i - 1].score) + ", " + std::to_string(all[i].probability) +
+                 " at " + std::to_string(all[i].score));
+    return;
+  }
+}
+
 std::string inputs_of(const Call& call) {
   std::string text;
   for (std::size_t i = 0; i < call.input_count(); ++i) text += digest(call.input(i)) + "\n";
@@ -90,9 +107,16 @@ void check_detector(const Stage& stage, Findings& findings) {
     return processed(d, *stage.call(frame), stage, findings);
   };
   std::map<std::int64_t, std::string> forward;
+  std::vector<Observation> all;
   for (std::int64_t frame = 0; frame < count; ++frame) {
-    findings.step("detect()", [&] { forward[frame] = detect(*detector, frame); });
+    findings.step("detect()", [&] {
+      const auto call = stage.call(frame);
+      forward[frame] = processed(*detector, *call, stage, findings);
+      const auto* o = dynamic_cast<const Observations*>(call->output(0).get());
+      if (o != nullptr) all.insert(all.end(), o->items.begin(), o->items.end());
+    });
   }
+  check_scores(std::move(all), findings);
   for (std::int64_t frame = count - 1; frame >= 0; frame -= 3) {
     findings.require(detect(*detector, frame) == forward[frame],
                      "a frame's result depends on the frames seen before it");

@@ -50,7 +50,7 @@ class Writer {
   }
   Writer& observation(const Observation& o, bool described) {
     *this << o.position_m << o.covariance_m2(0, 0) << o.covariance_m2(0, 1) << o.covariance_m2(1, 0)
-          << o.covariance_m2(1, 1) << o.probability << o.boxes;
+          << o.covariance_m2(1, 1) << o.probability << o.score << o.boxes;
     if (described) *this << o.heading_rad << o.features;
     return *this;
   }

@@ -36,6 +36,8 @@ class FromBoxes final : public Detector {
         Observation o;
         o.position_m = *foot;
         o.probability = fault_ == "probability" ? 1.5 : 0.5;
+        if (fault_ == "score") o.probability = d.score / 2;
+        if (fault_ == "infinite") o.score = std::numeric_limits<double>::infinity();
         if (fault_ == "covariance") o.covariance_m2(0, 1) = 3;
         if (fault_ == "memory") o.position_m.x() += 1e-3 * static_cast<double>(++calls_);
         o.boxes.push_back({fault_ == "camera" ? 17 : c, d.box, d.score});
@@ -67,6 +69,8 @@ TEST(DetectorContractTest, EachBrokenPromiseIsCaught) {
   expect_caught<FromBoxes>({
       {"needs-images", "detect() without the optional inputs threw"},
       {"probability", "probability is not in [0, 1]"},
+      {"score", "probability is no rising function of the score"},
+      {"infinite", "score is not finite"},
       {"covariance", "covariance is not symmetric positive definite"},
       {"memory", "a frame's result depends on the frames seen before it"},
       {"camera", "a box names a camera that the scene lacks"},

@@ -94,6 +94,7 @@ Observation observation() {
   o.position_m = {0.1, -1.0 / 3};
   o.covariance_m2 << 0.5, 0.125, 0.125, 2;
   o.probability = std::numeric_limits<double>::denorm_min();
+  o.score = -1.0 / 7;
   o.heading_rad = -0.0;
   o.boxes = {{.camera = 3, .box = {1.5, 2, 30, 60}, .score = -7}};
   return o;
@@ -108,6 +109,7 @@ TEST(PayloadCodecTest, NumbersKeepAllTheirBits) {
   EXPECT_EQ(back->items[0].position_m, observations.items[0].position_m);
   EXPECT_EQ(back->items[0].covariance_m2, observations.items[0].covariance_m2);
   EXPECT_EQ(back->items[0].probability, std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(back->items[0].score, -1.0 / 7);
   EXPECT_TRUE(std::signbit(*back->items[0].heading_rad));
   EXPECT_EQ(back->items[0].boxes.at(0).camera, 3U);
   EXPECT_EQ(back->items[0].boxes.at(0).box, observations.items[0].boxes[0].box);

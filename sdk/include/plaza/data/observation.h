@@ -23,7 +23,10 @@ struct Observation {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Identity();  ///< symmetric, positive definite
   double probability = 0;                                       ///< P(a person stands here), [0, 1]
-  std::optional<double> heading_rad;                            ///< 0 along +x, counter-clockwise
+  /// On the detector's own scale, finite; `probability` is what the detector made of it, and never
+  /// falls where it rises. What a calibration is fitted to: a curve that is flat hides the score.
+  double score = 0;
+  std::optional<double> heading_rad;  ///< 0 along +x, counter-clockwise
   std::vector<ViewBox> boxes;  ///< at most one per camera, by rising camera index; may be empty
   FeatureSet features;
 };
