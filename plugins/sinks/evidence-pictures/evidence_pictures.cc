@@ -59,8 +59,8 @@ EvidencePictures::EvidencePictures(const Options& options, const BuildContext& c
   for (const std::int64_t from_one : options.frames) wanted_.insert(from_one - 1);
 }
 
-Section EvidencePictures::view_section(const NodeIo& io, std::size_t camera) const {
-  Section section{scene_->cameras[camera].name(), {}};
+drawing::Section EvidencePictures::view_section(const NodeIo& io, std::size_t camera) const {
+  drawing::Section section{scene_->cameras[camera].name(), {}};
   const FrameSet& frames = io.in<FrameSet>(kFrames);
   const cv::Mat image = camera < frames.views.size() ? frames.views[camera] : cv::Mat();
   if (!image.empty()) section.tiles.push_back({image, "image", "as the camera saw it"});
@@ -89,7 +89,7 @@ Section EvidencePictures::view_section(const NodeIo& io, std::size_t camera) con
   return section;
 }
 
-Section EvidencePictures::surface_section(const NodeIo& io) const {
+drawing::Section EvidencePictures::surface_section(const NodeIo& io) const {
   const auto* likelihood = io.find<GroundLikelihood>(kLikelihood);
   if (likelihood == nullptr) return {};
   return {
@@ -98,14 +98,15 @@ Section EvidencePictures::surface_section(const NodeIo& io) const {
         "likelihood-surface", "joint likelihood, share of the best cell's"}}};
 }
 
-void EvidencePictures::write_section(const Section& section, const fs::path& folder) const {
+void EvidencePictures::write_section(const drawing::Section& section,
+                                     const fs::path& folder) const {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
     throw UserError("the folder '" + folder.string() +
                     "' for pictures could not be made: " + error.message());
   }
-  for (const Tile& tile : section.tiles) {
+  for (const drawing::Tile& tile : section.tiles) {
     drawing::write_png(folder / (tile.name + ".png"), tile.image);
   }
 }
@@ -114,20 +115,20 @@ void EvidencePictures::do_write(const NodeIo& io) {
   if (!wanted_.contains(io.frame())) return;
   const std::string number = six_digits(io.frame());
   const fs::path folder = folder_ / name_ / number;
-  std::vector<Section> sections;
+  std::vector<drawing::Section> sections;
   for (std::size_t camera = 0; camera < scene_->cameras.size(); ++camera) {
     sections.push_back(view_section(io, camera));
     write_section(sections.back(), folder / sections.back().title);
     if (sections.back().tiles.empty()) sections.back().title += ": no image";
   }
-  if (Section surface = surface_section(io); !surface.tiles.empty()) {
+  if (drawing::Section surface = surface_section(io); !surface.tiles.empty()) {
     write_section(surface, folder);
     sections.push_back(std::move(surface));
   }
   const fs::path sheet = folder_ / name_ / ("sheet-" + number + ".png");
   const std::string title = scene_->name + ", frame " + std::to_string(io.frame() + 1);
-  drawing::write_png(sheet,
-                     contact_sheet(title, sections, options_.sheet_width_px, options_.columns));
+  drawing::write_png(
+      sheet, drawing::contact_sheet(title, sections, options_.sheet_width_px, options_.columns));
   written_.push_back({sheet, "what was seen in frame " + std::to_string(io.frame() + 1) +
                                  ", all pictures on one sheet; each of them is in " +
                                  folder.filename().string() + "/"});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plaza/component/declaration.h"
-#include "plugins/sinks/evidence-pictures/contact_sheet.h"
+#include "plugins/sinks/drawing/contact_sheet.h"
 
 namespace plaza::evidence_pictures {
 
@@ -28,9 +28,9 @@ class EvidencePictures final : public Sink {
   void do_write_rest(const NodeIo&) override {}
   std::vector<Artifact> do_finish(bool complete) override;
 
-  Section view_section(const NodeIo& io, std::size_t camera) const;
-  Section surface_section(const NodeIo& io) const;
-  void write_section(const Section& section, const std::filesystem::path& folder) const;
+  drawing::Section view_section(const NodeIo& io, std::size_t camera) const;
+  drawing::Section surface_section(const NodeIo& io) const;
+  void write_section(const drawing::Section& section, const std::filesystem::path& folder) const;
 
   Options options_;
   std::string name_;

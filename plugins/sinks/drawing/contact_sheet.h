@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace plaza::evidence_pictures {
+namespace plaza::drawing {
 
 struct Tile {
   cv::Mat image;  ///< 8-bit BGR, not empty
@@ -19,8 +19,8 @@ struct Section {
 
 /// All tiles in one picture, section by section in rows of at most `columns`, each with its name
 /// and caption below. `width_px` >= 320; the height follows. Images are scaled to the tiles' width,
-/// but not enlarged beyond twice their size.
+/// but not enlarged beyond `most_enlarged` times their size.
 cv::Mat contact_sheet(const std::string& title, const std::vector<Section>& sections, int width_px,
-                      int columns);
+                      int columns, double most_enlarged = 2);
 
-}  // namespace plaza::evidence_pictures
+}  // namespace plaza::drawing

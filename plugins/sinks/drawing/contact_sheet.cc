@@ -1,4 +1,4 @@
-#include "plugins/sinks/evidence-pictures/contact_sheet.h"
+#include "plugins/sinks/drawing/contact_sheet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,23 +6,23 @@
 
 #include "plugins/sinks/drawing/canvas.h"
 
-namespace plaza::evidence_pictures {
+namespace plaza::drawing {
 namespace {
 
 constexpr int kGap = 12, kText = 12, kTitle = 16;
 constexpr int kLabel = 2 * kText + 26;      // a label with its room
 constexpr int kHeader = kTitle + 2 * kGap;  // a title with its room
 
-cv::Size fitted(cv::Size image, int width) {
-  const double scale = std::min(2.0, static_cast<double>(width) / image.width);
+cv::Size fitted(cv::Size image, int width, double most_enlarged) {
+  const double scale = std::min(most_enlarged, static_cast<double>(width) / image.width);
   return {std::max(1, static_cast<int>(std::lround(image.width * scale))),
           std::max(1, static_cast<int>(std::lround(image.height * scale)))};
 }
 
 /// The text, shortened until it fits.
 std::string shortened(std::string text, double height_px, double room_px) {
-  if (drawing::text_size(text, height_px).width <= room_px) return text;
-  while (!text.empty() && drawing::text_size(text + "...", height_px).width > room_px) {
+  if (text_size(text, height_px).width <= room_px) return text;
+  while (!text.empty() && text_size(text + "...", height_px).width > room_px) {
     text.pop_back();
   }
   return text + "...";
@@ -33,12 +33,14 @@ struct Row {
   int height;  ///< of its highest image
 };
 
-std::vector<Row> rows_of(const Section& section, int tile_width, std::size_t columns) {
+std::vector<Row> rows_of(const Section& section, int tile_width, std::size_t columns,
+                         double most_enlarged) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < section.tiles.size(); i += columns) {
     Row row{i, std::min(i + columns, section.tiles.size()), 0};
     for (std::size_t t = row.begin; t < row.end; ++t) {
-      row.height = std::max(row.height, fitted(section.tiles[t].image.size(), tile_width).height);
+      row.height = std::max(
+          row.height, fitted(section.tiles[t].image.size(), tile_width, most_enlarged).height);
     }
     rows.push_back(row);
   }
@@ -48,7 +50,7 @@ std::vector<Row> rows_of(const Section& section, int tile_width, std::size_t col
 }  // namespace
 
 cv::Mat contact_sheet(const std::string& title, const std::vector<Section>& sections, int width_px,
-                      int columns) {
+                      int columns, double most_enlarged) {
   std::size_t most = 1;
   for (const Section& s : sections) most = std::max(most, s.tiles.size());
   const int used = std::min(columns, static_cast<int>(most));
@@ -56,31 +58,33 @@ cv::Mat contact_sheet(const std::string& title, const std::vector<Section>& sect
   int height = kHeader;
   for (const Section& section : sections) {
     height += kHeader;
-    for (const Row& row : rows_of(section, tile_width, static_cast<std::size_t>(used))) {
+    for (const Row& row :
+         rows_of(section, tile_width, static_cast<std::size_t>(used), most_enlarged)) {
       height += row.height + kLabel;
     }
   }
-  const drawing::Theme& theme = drawing::dark_theme();
+  const Theme& theme = dark_theme();
   cv::Mat sheet(height + kGap, width_px, CV_8UC3, theme.paper);
   const double room = width_px - 2 * kGap;
-  drawing::draw_text(sheet, shortened(title, kTitle, room), {kGap, kGap}, {kTitle, theme.text});
+  draw_text(sheet, shortened(title, kTitle, room), {kGap, kGap}, {kTitle, theme.text});
   int y = kHeader;
   for (const Section& section : sections) {
-    drawing::draw_text(sheet, shortened(section.title, kTitle, room),
-                       {kGap, static_cast<double>(y + kGap)}, {kTitle, theme.quiet_text});
+    draw_text(sheet, shortened(section.title, kTitle, room), {kGap, static_cast<double>(y + kGap)},
+              {kTitle, theme.quiet_text});
     y += kHeader;
-    for (const Row& row : rows_of(section, tile_width, static_cast<std::size_t>(used))) {
+    for (const Row& row :
+         rows_of(section, tile_width, static_cast<std::size_t>(used), most_enlarged)) {
       for (std::size_t t = row.begin; t < row.end; ++t) {
         const Tile& tile = section.tiles[t];
         const int x = kGap + static_cast<int>(t - row.begin) * (tile_width + kGap);
-        const cv::Size size = fitted(tile.image.size(), tile_width);
+        const cv::Size size = fitted(tile.image.size(), tile_width, most_enlarged);
         cv::Mat place = sheet(cv::Rect({x, y}, size));
         cv::resize(tile.image, place, size, 0, 0,
                    size.width < tile.image.cols ? cv::INTER_AREA : cv::INTER_NEAREST);
-        const auto write = [&](const std::string& text, int top, const drawing::Color& color) {
-          drawing::draw_text(sheet, shortened(text, kText, tile_width),
-                             {static_cast<double>(x), static_cast<double>(y + size.height + top)},
-                             {kText, color});
+        const auto write = [&](const std::string& text, int top, const Color& color) {
+          draw_text(sheet, shortened(text, kText, tile_width),
+                    {static_cast<double>(x), static_cast<double>(y + size.height + top)},
+                    {kText, color});
         };
         write(tile.name, 6, theme.text);
         write(tile.caption, kText + 12, theme.quiet_text);
@@ -91,4 +95,4 @@ cv::Mat contact_sheet(const std::string& title, const std::vector<Section>& sect
   return sheet;
 }
 
-}  // namespace plaza::evidence_pictures
+}  // namespace plaza::drawing

@@ -1,10 +1,10 @@
-#include "plugins/sinks/evidence-pictures/contact_sheet.h"
+#include "plugins/sinks/drawing/contact_sheet.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-namespace plaza::evidence_pictures {
+namespace plaza::drawing {
 namespace {
 
 Tile tile(cv::Size size, const cv::Scalar& color, std::string name = "name") {
@@ -45,4 +45,4 @@ TEST(ContactSheet, LongAndMissingTextsDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace plaza::evidence_pictures
+}  // namespace plaza::drawing
