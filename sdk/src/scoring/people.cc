@@ -46,45 +46,94 @@ double view_overlap(const TruePerson& person, const ResultPerson& result) {
   return views > 0 ? sum / views : 0;
 }
 
+namespace {
+
+bool reaches(double similarity, double overlap) { return similarity >= overlap - kEpsilon; }
+
+/// How well everybody fits everybody in one frame, and who is left to be matched.
+struct Comparison {
+  std::vector<std::size_t> people;    // of the truth, those who have a box: the matrix's rows
+  Eigen::MatrixXd similarity;         // people x results
+  std::vector<Eigen::Index> rows;     // of those who count
+  std::vector<Eigen::Index> columns;  // of the results that are not forgiven
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> forgiven;  // row who doesn't count, column
+};
+
+Comparison compare(const GroundTruth& truth, std::span<const ResultPerson> results,
+                   double overlap) {
+  Comparison out;
+  for (std::size_t i = 0; i < truth.people.size(); ++i) {
+    if (!truth.people[i].views.empty()) out.people.push_back(i);
+  }
+  const auto rows = static_cast<Eigen::Index>(out.people.size());
+  const auto columns = static_cast<Eigen::Index>(results.size());
+  out.similarity.resize(rows, columns);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const TruePerson& person = truth.people[out.people[static_cast<std::size_t>(i)]];
+    if (counts_somewhere(person)) out.rows.push_back(i);
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      out.similarity(i, j) = view_overlap(person, results[static_cast<std::size_t>(j)]);
+    }
+  }
+  std::vector<bool> is_forgiven(results.size(), false);
+  if (std::cmp_less(out.rows.size(), rows)) {
+    const std::vector<int> assigned = assign_maximum_weight(
+        out.similarity.unaryExpr([overlap](double s) { return reaches(s, overlap) ? s : 0.0; }));
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      if (assigned[row] < 0 || counts_somewhere(truth.people[out.people[row]])) continue;
+      const double s = out.similarity(i, assigned[row]);
+      if (!(s > 0) || !reaches(s, overlap)) continue;
+      is_forgiven[static_cast<std::size_t>(assigned[row])] = true;
+      out.forgiven.emplace_back(i, assigned[row]);
+    }
+  }
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    if (!is_forgiven[static_cast<std::size_t>(j)]) out.columns.push_back(j);
+  }
+  return out;
+}
+
+}  // namespace
+
 void add_people(PairedSequenceBuilder& builder, std::int64_t frame, const GroundTruth& truth,
                 std::span<const ResultPerson> results, double overlap) {
-  std::vector<const TruePerson*> people;
-  for (const TruePerson& person : truth.people) {
-    if (!person.views.empty()) people.push_back(&person);
-  }
-  const auto rows = static_cast<Eigen::Index>(people.size());
-  const auto columns = static_cast<Eigen::Index>(results.size());
-  Eigen::MatrixXd similarity(rows, columns);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    for (Eigen::Index j = 0; j < columns; ++j) {
-      similarity(i, j) =
-          view_overlap(*people[static_cast<std::size_t>(i)], results[static_cast<std::size_t>(j)]);
-    }
-  }
-
-  std::vector<bool> forgiven(results.size(), false);
+  const Comparison all = compare(truth, results, overlap);
   std::vector<std::int64_t> true_ids, result_ids;
-  std::vector<Eigen::Index> kept_rows, kept_columns;
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    if (!counts_somewhere(*people[i])) continue;
-    kept_rows.push_back(static_cast<Eigen::Index>(i));
-    true_ids.push_back(people[i]->id);
+  for (const Eigen::Index i : all.rows) {
+    true_ids.push_back(truth.people[all.people[static_cast<std::size_t>(i)]].id);
   }
-  if (kept_rows.size() < people.size()) {
-    const std::vector<int> assigned = assign_maximum_weight(
-        similarity.unaryExpr([overlap](double s) { return s >= overlap - kEpsilon ? s : 0.0; }));
-    for (std::size_t i = 0; i < people.size(); ++i) {
-      if (assigned[i] < 0 || counts_somewhere(*people[i])) continue;
-      const double s = similarity(static_cast<Eigen::Index>(i), assigned[i]);
-      if (s > 0 && s >= overlap - kEpsilon) forgiven[static_cast<std::size_t>(assigned[i])] = true;
-    }
+  for (const Eigen::Index j : all.columns) {
+    result_ids.push_back(results[static_cast<std::size_t>(j)].id);
   }
-  for (std::size_t j = 0; j < results.size(); ++j) {
-    if (forgiven[j]) continue;
-    kept_columns.push_back(static_cast<Eigen::Index>(j));
-    result_ids.push_back(results[j].id);
+  builder.add(frame, true_ids, result_ids, all.similarity(all.rows, all.columns));
+}
+
+PeopleMatch match_people(const GroundTruth& truth, std::span<const ResultPerson> results,
+                         double overlap) {
+  const Comparison all = compare(truth, results, overlap);
+  PeopleMatch match;
+  match.counts.assign(truth.people.size(), false);
+  match.result_of.assign(truth.people.size(), -1);
+  match.person_of.assign(results.size(), -1);
+  const auto join = [&](Eigen::Index row, Eigen::Index column) {
+    const std::size_t person = all.people[static_cast<std::size_t>(row)];
+    match.result_of[person] = static_cast<int>(column);
+    match.person_of[static_cast<std::size_t>(column)] = static_cast<int>(person);
+  };
+  for (const auto& [row, column] : all.forgiven) join(row, column);
+  for (const Eigen::Index row : all.rows) {
+    match.counts[all.people[static_cast<std::size_t>(row)]] = true;
   }
-  builder.add(frame, true_ids, result_ids, similarity(kept_rows, kept_columns));
+  const Eigen::MatrixXd kept = all.similarity(all.rows, all.columns);
+  const std::vector<int> assigned = assign_maximum_weight(
+      kept.unaryExpr([overlap](double s) { return reaches(s, overlap) ? s : 0.0; }));
+  for (std::size_t i = 0; i < assigned.size(); ++i) {
+    if (assigned[i] < 0) continue;
+    if (!reaches(kept(static_cast<Eigen::Index>(i), assigned[i]), overlap)) continue;
+    join(all.rows[i], all.columns[static_cast<std::size_t>(assigned[i])]);
+  }
+  return match;
 }
 
 }  // namespace plaza

@@ -246,7 +246,16 @@ const std::map<std::string, Maker>& table() {
       {"detection-scores", [](const fs::path&) { return defaults(); }},
       {"tracking-scores", [](const fs::path&) { return defaults(); }},
       {"ground-scores", [](const fs::path&) { return defaults(); }},
+      {"detection-errors",
+       [](const fs::path&) {
+         return std::vector<Trial>{
+             Trial(), trial("occluders of its own",
+                            {{"occluders", {{"view1", {{{0, 0}, {100, 0}, {100, 200}}}}}}})};
+       }},
+      {"reliability", [](const fs::path&) { return defaults(); }},
       // sinks and renderers
+      {"error-pictures", [](const fs::path&) { return defaults(); }},
+      {"reliability-diagram", [](const fs::path&) { return defaults(); }},
       {"overlay-video", [](const fs::path&) { return defaults(); }},
       {"evidence-pictures",
        [](const fs::path&) {

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "plaza/scoring/detection.h"
+
 namespace plaza {
 namespace {
 
@@ -84,6 +88,40 @@ TEST(BoxesInViews, MeasuredOnesComeFirst) {
   EXPECT_EQ(*boxes[0], *body_box(scene.cameras[0], {0, 6}, scene.body));
   EXPECT_EQ(*boxes[1], kBox);
   EXPECT_FALSE(boxes_in_views(scene, {0, -6}, {})[0]) << "behind the camera";
+}
+
+TEST(MatchPeople, CountsAsTheScoresDo) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> place(0, 60), sight(0, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    GroundTruth truth;
+    std::vector<ResultPerson> results;
+    const auto people = random() % 5, found = random() % 6;
+    for (unsigned i = 0; i < people; ++i) {
+      std::vector<TrueView> views = {{0, {place(random), 0, 20, 40}, sight(random)},
+                                     {1, {place(random), 0, 20, 40}, sight(random) - 0.5}};
+      views.resize(random() % 3);
+      truth.people.push_back(person(i + 1, views));
+    }
+    for (unsigned j = 0; j < found; ++j) {
+      results.push_back({j, {Box{place(random), 0, 20, 40}, Box{place(random), 0, 20, 40}}});
+    }
+    const PeopleMatch match = match_people(truth, results, 0.3);
+    std::int64_t tp = 0, fn = 0, fp = 0;
+    for (std::size_t i = 0; i < truth.people.size(); ++i) {
+      if (match.counts[i]) ++(match.result_of[i] >= 0 ? tp : fn);
+      if (match.result_of[i] >= 0) {
+        EXPECT_EQ(match.person_of.at(static_cast<std::size_t>(match.result_of[i])), i);
+      }
+    }
+    for (const int i : match.person_of) fp += i < 0 ? 1 : 0;
+    PairedSequenceBuilder builder;
+    add_people(builder, 0, truth, results, 0.3);
+    const DetectionScores scores = score_overlap_detection(builder.build(), 0.3);
+    EXPECT_EQ(tp, scores.tp) << trial;
+    EXPECT_EQ(fn, scores.fn) << trial;
+    EXPECT_EQ(fp, scores.fp) << trial;
+  }
 }
 
 }  // namespace

@@ -30,6 +30,19 @@ PLAZA_API std::vector<std::optional<Box>> boxes_in_views(const Scene& scene,
 /// 0. For a person who counts nowhere: over all views that have a true box.
 PLAZA_API double view_overlap(const TruePerson& person, const ResultPerson& result);
 
+/// Who of a frame was found by which result.
+struct PeopleMatch {
+  std::vector<bool> counts;    ///< [person of the truth]: is to be found, counts in some view
+  std::vector<int> result_of;  ///< [person of the truth]; -1: none
+  std::vector<int> person_of;  ///< [result]; -1: none
+};
+
+/// Matches one frame as add_people() and score_overlap_detection() do: of the people who count, an
+/// assignment of largest sum of similarities at `overlap` or more. A result that belongs to one who
+/// doesn't count is matched with that one, and right or wrong for nobody.
+PLAZA_API PeopleMatch match_people(const GroundTruth& truth, std::span<const ResultPerson> results,
+                                   double overlap);
+
 /// Adds one frame to a comparison by boxes: one similarity per true person and result, over all
 /// views.
 ///
