@@ -15,7 +15,7 @@ namespace {
 constexpr float kSigmaOfMad = 1.4826F;
 
 /// How often each of 256 values occurred at one pixel.
-class Counts {
+class ValueCounts {
  public:
   void add(int value) { ++counts_[static_cast<std::size_t>(value)]; }
   /// The lower median of `total` values, which is one of them.
@@ -42,10 +42,10 @@ void learn_row(const std::vector<cv::Mat>& samples, int y, Background& backgroun
   for (int x = 0; x < background.image.cols; ++x) {
     float sum = 0;
     for (int i = 3 * x; i < 3 * x + 3; ++i) {
-      Counts values;
+      ValueCounts values;
       for (const uchar* row : rows) values.add(row[i]);
       const int middle = values.median(rows.size());
-      Counts deviations;
+      ValueCounts deviations;
       for (const uchar* row : rows) deviations.add(std::abs(row[i] - middle));
       colour[i] = static_cast<uchar>(middle);
       sum += static_cast<float>(deviations.median(rows.size()));
