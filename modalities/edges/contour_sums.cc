@@ -10,12 +10,21 @@
 namespace plaza::edges {
 namespace {
 
-void sum_plain(const std::uint8_t* block, const ContourRuns& runs, ContourSum* sums) {
+/// Where runs begin.
+struct InBlock {
+  const std::uint8_t* block;
+  const std::uint32_t* begins;
+  const std::uint8_t* operator[](std::size_t run) const { return block + begins[run]; }
+};
+using Anywhere = const std::uint8_t* const*;
+
+template <class Place>
+void sum_plain(const Place& place, const ContourRuns& runs, ContourSum* sums) {
   std::size_t run = 0;
   for (std::size_t d = 0; d < runs.directions; ++d) {
     ContourSum sum;
     for (const std::size_t end = run + runs.counts[d]; run < end; ++run) {
-      const std::uint8_t* bytes = block + runs.begins[run];
+      const std::uint8_t* bytes = place[run];
       for (int i = 0; i < runs.lengths[run]; ++i) {
         const auto steps = static_cast<std::uint64_t>(std::max(0, runs.peaks[d] - bytes[i]));
         if (bytes[i] == 0) {
@@ -45,7 +54,8 @@ constexpr RunMasks kMasks;
 // One vector of steps adds at most 4 * 254^2 to a 32-bit sum and 1 to an 8-bit one.
 constexpr std::size_t kVectorsPerSum = 255;
 
-void sum_sse2(const std::uint8_t* block, const ContourRuns& runs, ContourSum* sums) {
+template <class Place>
+void sum_sse2(const Place& place, const ContourRuns& runs, ContourSum* sums) {
   const __m128i zero = _mm_setzero_si128(), one = _mm_set1_epi8(1);
   const auto load = [](const std::uint8_t* p) {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
@@ -59,7 +69,7 @@ void sum_sse2(const std::uint8_t* block, const ContourRuns& runs, ContourSum* su
       __m128i squares = zero, outliers = zero;
       for (; run < end; ++run) {
         const __m128i mask = load(kMasks.of[runs.lengths[run]]);
-        const __m128i near = load(block + runs.begins[run]);
+        const __m128i near = load(place[run]);
         const __m128i none = _mm_and_si128(_mm_cmpeq_epi8(near, zero), mask);
         outliers = _mm_add_epi8(outliers, _mm_and_si128(none, one));
         const __m128i steps = _mm_and_si128(_mm_subs_epu8(peak, near), _mm_xor_si128(none, mask));
@@ -81,7 +91,8 @@ void sum_sse2(const std::uint8_t* block, const ContourRuns& runs, ContourSum* su
 
 /// Two runs at once. No lambdas and no functions of the standard library: they would not be
 /// compiled for the same instructions.
-__attribute__((target("avx2"))) void sum_avx2(const std::uint8_t* block, const ContourRuns& runs,
+template <class Place>
+__attribute__((target("avx2"))) void sum_avx2(const Place& place, const ContourRuns& runs,
                                               ContourSum* sums) {
   const __m256i zero = _mm256_setzero_si256(), one = _mm256_set1_epi8(1);
   std::size_t run = 0;
@@ -93,8 +104,8 @@ __attribute__((target("avx2"))) void sum_avx2(const std::uint8_t* block, const C
       __m256i squares = zero, outliers = zero;
       for (; run < end; run += 2) {
         const bool two = run + 1 < end;
-        const std::uint8_t* first = block + runs.begins[run];
-        const std::uint8_t* second = two ? block + runs.begins[run + 1] : first;
+        const std::uint8_t* first = place[run];
+        const std::uint8_t* second = two ? place[run + 1] : first;
         const std::size_t length = two ? runs.lengths[run + 1] : 0;
         const __m256i mask = _mm256_inserti128_si256(
             _mm256_castsi128_si256(
@@ -129,14 +140,27 @@ __attribute__((target("avx2"))) void sum_avx2(const std::uint8_t* block, const C
 
 #endif  // __x86_64__
 
+template <void (*Sum)(const InBlock&, const ContourRuns&, ContourSum*)>
+void in_block(const std::uint8_t* block, const ContourRuns& runs, ContourSum* sums) {
+  Sum({block, runs.begins}, runs, sums);
+}
+template <void (*Sum)(const Anywhere&, const ContourRuns&, ContourSum*)>
+void anywhere(const std::uint8_t* const* bytes, const ContourRuns& runs, ContourSum* sums) {
+  Sum(bytes, runs, sums);
+}
+
 }  // namespace
 
 std::span<const SumContourVersion> sum_contour_versions() {
   static const std::vector<SumContourVersion> kVersions = [] {
-    std::vector<SumContourVersion> v = {{"plain", sum_plain}};
+    std::vector<SumContourVersion> v = {
+        {"plain", in_block<sum_plain<InBlock>>, anywhere<sum_plain<Anywhere>>}};
 #if defined(__x86_64__)
-    v.push_back({"sse2", sum_sse2});  // part of x86-64
-    if (__builtin_cpu_supports("avx2")) v.push_back({"avx2", sum_avx2});
+    v.push_back(
+        {"sse2", in_block<sum_sse2<InBlock>>, anywhere<sum_sse2<Anywhere>>});  // part of x86-64
+    if (__builtin_cpu_supports("avx2")) {
+      v.push_back({"avx2", in_block<sum_avx2<InBlock>>, anywhere<sum_avx2<Anywhere>>});
+    }
 #endif
     return v;
   }();

@@ -31,9 +31,14 @@ struct ContourSum {
 /// Reads `block` up to kLongestRun - 1 bytes behind the last point; sums[direction] is written.
 using SumContour = void (*)(const std::uint8_t* block, const ContourRuns& runs, ContourSum* sums);
 
+/// The same of runs that lie anywhere: bytes[run] is the first of a run; `begins` isn't read.
+using SumPieces = void (*)(const std::uint8_t* const* bytes, const ContourRuns& runs,
+                           ContourSum* sums);
+
 struct SumContourVersion {
   const char* name;  ///< "plain", "sse2", "avx2"
   SumContour run;
+  SumPieces run_pieces;
 };
 
 /// What this processor can run, slowest first; never empty. All give the same sums.

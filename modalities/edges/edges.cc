@@ -269,7 +269,7 @@ void Edges::do_match(const Evidence& evidence, const TemplateBatch& templates,
     }
     return;
   }
-  PatchedSums patched(planes, edges.patches(), matcher.sum_contour());
+  PatchedSums patched(planes, edges.patches(), matcher.sum_pieces());
   std::vector<ContourSum> sums(edges.layout()->directions().size());
   for (std::size_t i = 0; i < which.size(); ++i) {
     const std::uint32_t index = which[i];

@@ -56,79 +56,57 @@ PlanePatches patched(const PlaneLayout& layout, PlanePatches before,
 
 bool PatchedSums::touches(const EdgeTemplates& templates, std::size_t index) {
   near_.clear();
-  for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (!(patches_[i]->valid() & templates.box(index)).empty()) near_.push_back(i);
+  for (const auto& patch : patches_) {
+    if (!(patch->valid() & templates.box(index)).empty()) near_.push_back(patch.get());
   }
   return !near_.empty();
 }
 
 void PatchedSums::sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums) {
-  const ContourRuns whole = templates.runs(index);
-  split(templates, index);
-  of_part_.resize(whole.directions);
-  const auto runs_of = [&](const Part& part) {
-    return ContourRuns{part.begins.data(), part.lengths.data(), part.counts.data(), whole.peaks,
-                       whole.directions};
-  };
-  sum_(planes_, runs_of(parts_.back()), sums);
-  for (const std::size_t i : near_) {
-    sum_(patches_[i]->bytes(), runs_of(parts_[i]), of_part_.data());
-    for (std::size_t d = 0; d < whole.directions; ++d) {
-      sums[d].squares += of_part_[d].squares;
-      sums[d].outliers += of_part_[d].outliers;
-    }
-  }
-}
-
-void PatchedSums::split(const EdgeTemplates& templates, std::size_t index) {
   const PlaneLayout& layout = *templates.layout();
   const ContourRuns whole = templates.runs(index);
   const std::span<const std::uint16_t> rows = templates.rows(index);
-  const auto clear = [&](Part& part) {
-    part.begins.clear();
-    part.lengths.clear();
-    part.counts.assign(whole.directions, 0);
-  };
-  clear(parts_.back());
-  for (const std::size_t i : near_) clear(parts_[i]);
+  bytes_.clear();
+  lengths_.clear();
+  counts_.resize(whole.directions);
   std::size_t run = 0;
   for (std::size_t d = 0; d < whole.directions; ++d) {
     const bool steep = layout.directions()[d].steep;
     const std::uint32_t stride = steep ? layout.wide_stride() : layout.tall_stride();
-    const auto add = [&](Part& part, std::uint32_t begin, int length) {
-      part.begins.push_back(begin);
-      part.lengths.push_back(static_cast<std::uint8_t>(length));
-      ++part.counts[d];
-    };
+    const std::size_t first = bytes_.size();
     for (const std::size_t last = run + whole.counts[d]; run < last; ++run) {
-      const int row = rows[run];
-      const std::uint32_t row_begin =
-          layout.plane_begin(d) + static_cast<std::uint32_t>(row) * stride;
-      int column = static_cast<int>(whole.begins[run] - row_begin);
-      const int end = column + whole.lengths[run];
-      while (column < end) {  // pieces inside a patch and between them
-        int piece_end = end;
-        std::size_t inside = patches_.size();
-        for (const std::size_t i : near_) {
-          const cv::Rect& v = patches_[i]->valid();
-          const int first_row = steep ? v.y : v.x, end_row = steep ? v.br().y : v.br().x;
-          const int first = steep ? v.x : v.y, behind = steep ? v.br().x : v.br().y;
-          if (row < first_row || row >= end_row || behind <= column || first >= end) continue;
-          if (first <= column) {
-            inside = i;
-            piece_end = std::min(end, behind);
-            break;
-          }
-          piece_end = std::min(piece_end, first);
-        }
-        const std::uint32_t begin =
-            inside == patches_.size()
-                ? row_begin + static_cast<std::uint32_t>(column)
-                : patches_[inside]->offset(d, steep ? column : row, steep ? row : column);
-        add(parts_[inside], begin, piece_end - column);
-        column = piece_end;
-      }
+      const std::uint32_t row_begin = layout.plane_begin(d) + rows[run] * stride;
+      const int column = static_cast<int>(whole.begins[run] - row_begin);
+      add_pieces(d, steep, rows[run], column, column + whole.lengths[run], planes_ + row_begin);
     }
+    counts_[d] = static_cast<std::uint32_t>(bytes_.size() - first);
+  }
+  sum_(bytes_.data(), {nullptr, lengths_.data(), counts_.data(), whole.peaks, whole.directions},
+       sums);
+}
+
+void PatchedSums::add_pieces(std::size_t direction, bool steep, int row, int column, int end,
+                             const std::uint8_t* row_begin) {
+  while (column < end) {
+    int piece_end = end;
+    const PlanePatch* inside = nullptr;
+    for (const PlanePatch* patch : near_) {
+      const cv::Rect& v = patch->valid();
+      const int first_row = steep ? v.y : v.x, end_row = steep ? v.br().y : v.br().x;
+      const int first = steep ? v.x : v.y, behind = steep ? v.br().x : v.br().y;
+      if (row < first_row || row >= end_row || behind <= column || first >= end) continue;
+      if (first <= column) {
+        inside = patch;
+        piece_end = std::min(end, behind);
+        break;
+      }
+      piece_end = std::min(piece_end, first);
+    }
+    add(inside == nullptr ? row_begin + column
+                          : inside->bytes() + inside->offset(direction, steep ? column : row,
+                                                             steep ? row : column),
+        piece_end - column);
+    column = piece_end;
   }
 }
 

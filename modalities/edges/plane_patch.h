@@ -47,8 +47,8 @@ class PatchedSums {
  public:
   /// Everything must outlive the object, which is one thread's.
   PatchedSums(const std::uint8_t* planes,
-              std::span<const std::shared_ptr<const PlanePatch>> patches, SumContour sum)
-      : planes_(planes), patches_(patches), sum_(sum), parts_(patches.size() + 1) {}
+              std::span<const std::shared_ptr<const PlanePatch>> patches, SumPieces sum)
+      : planes_(planes), patches_(patches), sum_(sum) {}
 
   /// Whether any of its points may be in a patch.
   bool touches(const EdgeTemplates& templates, std::size_t index);
@@ -56,19 +56,21 @@ class PatchedSums {
   void sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums);
 
  private:
-  /// Runs of a template in one patch, or in what isn't patched.
-  struct Part {
-    std::vector<std::uint32_t> begins, counts;
-    std::vector<std::uint8_t> lengths;
-  };
-  void split(const EdgeTemplates& templates, std::size_t index);
+  void add(const std::uint8_t* bytes, int length) {
+    bytes_.push_back(bytes);
+    lengths_.push_back(static_cast<std::uint8_t>(length));
+  }
+  /// A run from column to end of a row of a direction's plane, in pieces that lie in one place.
+  void add_pieces(std::size_t direction, bool steep, int row, int column, int end,
+                  const std::uint8_t* row_begin);
 
   const std::uint8_t* planes_;
   std::span<const std::shared_ptr<const PlanePatch>> patches_;
-  SumContour sum_;
-  std::vector<Part> parts_;        ///< by patch, the last of what isn't patched
-  std::vector<std::size_t> near_;  ///< patches that the template may reach
-  std::vector<ContourSum> of_part_;
+  SumPieces sum_;
+  std::vector<const PlanePatch*> near_;  ///< that the template may reach
+  std::vector<const std::uint8_t*> bytes_;
+  std::vector<std::uint8_t> lengths_;
+  std::vector<std::uint32_t> counts_;
 };
 
 }  // namespace plaza::edges

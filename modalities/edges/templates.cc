@@ -67,8 +67,8 @@ void EdgeTemplates::add(const Silhouette& silhouette, const TemplateOptions& opt
 }
 
 ContourMatcher::ContourMatcher(std::shared_ptr<const PlaneLayout> layout, double sigma_px,
-                               double gate_px, SumContour sum)
-    : layout_(std::move(layout)), sigma_px_(sigma_px), gate_px_(gate_px), sum_(sum) {
+                               double gate_px, const SumContourVersion& version)
+    : layout_(std::move(layout)), sigma_px_(sigma_px), gate_px_(gate_px), version_(&version) {
   if (layout_->directions().size() > kMostDirections) {
     throw std::invalid_argument("contours are matched in at most 180 directions");
   }
@@ -96,7 +96,7 @@ double ContourMatcher::log_likelihood(const std::uint8_t* block, const EdgeTempl
                                       std::size_t index) const {
   std::array<ContourSum, kMostDirections> sums;
   const ContourRuns runs = templates.runs(index);
-  sum_(block, runs, sums.data());
+  version_->run(block, runs, sums.data());
   return log_likelihood_of(std::span(sums).first(runs.directions), templates.points(index));
 }
 

@@ -101,14 +101,14 @@ class ContourMatcher {
  public:
   /// `sigma_px` is R, `gate_px` D_max.
   ContourMatcher(std::shared_ptr<const PlaneLayout> layout, double sigma_px, double gate_px,
-                 SumContour sum = sum_contour_versions().back().run);
+                 const SumContourVersion& version = sum_contour_versions().back());
 
   /// Begins to bring what a template reads into the cache.
   static void fetch(const std::uint8_t* block, const EdgeTemplates& templates, std::size_t index);
   /// The template must tell something.
   double log_likelihood(const std::uint8_t* block, const EdgeTemplates& templates,
                         std::size_t index) const;
-  SumContour sum_contour() const { return sum_; }
+  SumPieces sum_pieces() const { return version_->run_pieces; }
   /// By the points that aren't hidden; nothing when they are less than `least_share` of all, or
   /// fewer than `least_points`.
   std::optional<double> log_likelihood(const std::uint8_t* block, const HiddenRegion& hidden,
@@ -121,7 +121,7 @@ class ContourMatcher {
  private:
   std::shared_ptr<const PlaneLayout> layout_;
   double sigma_px_, gate_px_;
-  SumContour sum_;
+  const SumContourVersion* version_;
 };
 
 }  // namespace plaza::edges

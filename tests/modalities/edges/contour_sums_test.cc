@@ -53,10 +53,14 @@ TEST(ContourSums, AreThoseOfEveryPointWithEveryInstructionSet) {
       }
     }
     for (const SumContourVersion& version : sum_contour_versions()) {
-      ContourSum sums[3] = {{7, 7}, {7, 7}, {7, 7}};
+      ContourSum sums[3] = {{7, 7}, {7, 7}, {7, 7}}, pieces[3];
       version.run(block.data(), {begins.data(), lengths.data(), counts, peaks, 3}, sums);
+      std::vector<const std::uint8_t*> bytes;
+      for (const std::uint32_t begin : begins) bytes.push_back(block.data() + begin);
+      version.run_pieces(bytes.data(), {nullptr, lengths.data(), counts, peaks, 3}, pieces);
       for (std::size_t d = 0; d < 3; ++d) {
         EXPECT_EQ(sums[d], expected[d]) << version.name << ", turn " << turn << ", direction " << d;
+        EXPECT_EQ(pieces[d], expected[d]) << version.name << ", turn " << turn;
       }
     }
   }
