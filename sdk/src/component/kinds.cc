@@ -31,7 +31,8 @@ void check_observation(const Observation& o, std::size_t index) {
   if (!(o.probability >= 0 && o.probability <= 1)) {
     throw InternalError(at("observation", index) + "probability is not in [0, 1]");
   }
-  if (!std::isfinite(o.score)) throw InternalError(at("observation", index) + "score is not finite");
+  if (!std::isfinite(o.score))
+    throw InternalError(at("observation", index) + "score is not finite");
   if (o.heading_rad && !std::isfinite(*o.heading_rad)) {
     throw InternalError(at("observation", index) + "heading is not finite");
   }
