@@ -67,7 +67,8 @@ std::vector<drawing::Tile> tiles_of(const EpisodeBook& book) {
     drawing::Tile& tile = tiles.emplace_back();
     tile.image = episode.picture;
     tile.name = "frame " + std::to_string(episode.pictured_frame + 1);
-    if (episode.count > 1) tile.name += ", 1 of " + std::to_string(episode.count);
+    if (episode.count > 1) tile.name += " (1/" + std::to_string(episode.count) + ")";
+    if (!episode.view.empty()) tile.name += ", " + episode.view;
     tile.caption = episode.caption;
   }
   return tiles;
@@ -117,7 +118,9 @@ struct ErrorPictures::Scenery {
     }
     return best;
   }
-  std::vector<DrawnBox> boxes(std::size_t camera) const {
+  /// All boxes of a view; those of the error itself (either may be null) stand out.
+  std::vector<DrawnBox> boxes(std::size_t camera, const Miss* own_miss,
+                              const FalseAlarm* own_alarm) const {
     std::vector<DrawnBox> drawn;
     for (std::size_t i = 0; i < truth.people.size(); ++i) {
       if (const Box* box = true_box(i, camera)) drawn.push_back({*box, {kTrue, 1, 4}});
@@ -128,14 +131,12 @@ struct ErrorPictures::Scenery {
       if (observed[j][camera] && !wrong[j]) drawn.push_back({*observed[j][camera], {kFound, 1}});
     }
     for (const Miss& miss : errors.misses) {
-      if (const Box* box = true_box(miss.sight.person, camera)) {
-        drawn.push_back({*box, {kMissed, 2}});
-      }
+      const Box* const box = true_box(miss.sight.person, camera);
+      if (box != nullptr) drawn.push_back({*box, {kMissed, &miss == own_miss ? 3 : 1}});
     }
     for (const FalseAlarm& alarm : errors.alarms) {
-      if (observed[alarm.observation][camera]) {
-        drawn.push_back({*observed[alarm.observation][camera], {kAlarm, 2}});
-      }
+      const auto& box = observed[alarm.observation][camera];
+      if (box) drawn.push_back({*box, {kAlarm, &alarm == own_alarm ? 3 : 1}});
     }
     return drawn;
   }
@@ -189,6 +190,11 @@ OutputFile& ErrorPictures::table() {
   return *table_;
 }
 
+/// Empty where there is only one.
+std::string ErrorPictures::view_name(std::size_t camera) const {
+  return scene_->cameras.size() > 1 ? scene_->cameras[camera].name() : std::string();
+}
+
 void ErrorPictures::file_miss(const Scenery& scenery, const Miss& miss) {
   const TruePerson& person = scenery.truth.people[miss.sight.person];
   const auto view = scenery.best_view(
@@ -207,9 +213,10 @@ void ErrorPictures::file_miss(const Scenery& scenery, const Miss& miss) {
     const std::string reason = reason_of(miss, options_);
     std::string caption = "person " + std::to_string(person.id);
     caption.append(reason.empty() ? "" : ", ").append(reason);
-    return {crop_around(scenery.image(view->camera), focus, scenery.boxes(view->camera),
-                        sorter_.occluders(view->camera), {kTileWidth, kTileHeight}),
-            caption};
+    return {
+        crop_around(scenery.image(view->camera), focus, scenery.boxes(view->camera, &miss, nullptr),
+                    sorter_.occluders(view->camera), {kTileWidth, kTileHeight}),
+        view_name(view->camera), caption};
   });
 }
 
@@ -234,9 +241,10 @@ void ErrorPictures::file_alarm(const Scenery& scenery, const FalseAlarm& alarm) 
       }
     }
     std::string caption = "probability " + percent(observation.probability);
-    return {crop_around(scenery.image(view->camera), focus, scenery.boxes(view->camera),
+    return {crop_around(scenery.image(view->camera), focus,
+                        scenery.boxes(view->camera, nullptr, &alarm),
                         sorter_.occluders(view->camera), {kTileWidth, kTileHeight}),
-            caption};
+            view_name(view->camera), caption};
   });
 }
 
@@ -268,7 +276,7 @@ void ErrorPictures::write_sheet(const fs::path& file) const {
   const int width = static_cast<int>(columns) * (kTileWidth + kGap) + kGap;
   drawing::write_png(
       file, drawing::contact_sheet(
-                scene_->name + ": true (dashes), found (green), missed (red), false alarm (amber)",
+                "True: dashes; found: green; missed: red; false alarm: amber. " + scene_->name,
                 sections, width, static_cast<int>(columns), 1));
 }
 

@@ -32,6 +32,7 @@ class ErrorPictures final : public Sink {
   struct Scenery;  ///< what is in one frame
   void file_miss(const Scenery& scenery, const Miss& miss);
   void file_alarm(const Scenery& scenery, const FalseAlarm& alarm);
+  std::string view_name(std::size_t camera) const;
   OutputFile& table();
   void write_sheet(const std::filesystem::path& file) const;
 

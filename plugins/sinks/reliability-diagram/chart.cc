@@ -10,7 +10,7 @@ namespace plaza::reliability_diagram {
 namespace {
 
 constexpr double kTitle_px = 14, kText_px = 10;
-constexpr int kLeft = 58, kRight = 18, kTop = 78, kBottom = 52;
+constexpr int kLeft = 58, kRight = 18, kTop = 78, kBottom = 100;
 
 std::string number_text(double value, double step) {
   char text[32];
@@ -40,6 +40,7 @@ Chart::Chart(const cv::Mat& picture, const cv::Rect& place, const Range& x, cons
     : picture_(picture),
       field_(place.x + kLeft, place.y + kTop, place.width - kLeft - kRight,
              place.height - kTop - kBottom),
+      next_key_(field_.x, field_.y + field_.height + 54.0),
       x_(x),
       y_(y) {
   draw_axes(text);
@@ -103,16 +104,18 @@ void Chart::bar(double from_x, double to_x, double y, const drawing::Color& colo
   drawing::fill_convex(picture_, corners, color);
 }
 
-void Chart::key(int row, const std::string& text, const drawing::Color& color) {
-  const drawing::Theme& theme = drawing::light_theme();
-  const drawing::Point at(field_.x + 0.36 * field_.width,
-                          field_.y + 0.5 * field_.height + 20 * row);
-  const cv::Size2d size = drawing::text_size(text, kText_px);
-  const cv::Rect plate(cvFloor(at.x) - 4, cvFloor(at.y) - 5, cvCeil(size.width) + 34, 20);
-  picture_(plate & field_).setTo(theme.floor);
-  const drawing::Path sample = {at + drawing::Point(0, 5), at + drawing::Point(18, 5)};
+void Chart::key(const std::string& text, const drawing::Color& color) {
+  constexpr double kSample_px = 16, kGap_px = 6, kRow_px = 20;
+  const double width = kSample_px + kGap_px + drawing::text_size(text, kText_px).width;
+  if (next_key_.x > field_.x && next_key_.x + width > field_.x + field_.width) {
+    next_key_ = {static_cast<double>(field_.x), next_key_.y + kRow_px};
+  }
+  const drawing::Path sample = {next_key_ + drawing::Point(0, kText_px / 2),
+                                next_key_ + drawing::Point(kSample_px, kText_px / 2)};
   drawing::draw_path(picture_, sample, false, {color, 3});
-  drawing::draw_text(picture_, text, at + drawing::Point(26, 0), {kText_px, theme.text});
+  drawing::draw_text(picture_, text, next_key_ + drawing::Point(kSample_px + kGap_px, 0),
+                     {kText_px, drawing::light_theme().text});
+  next_key_.x += width + 3 * kGap_px;
 }
 
 }  // namespace plaza::reliability_diagram

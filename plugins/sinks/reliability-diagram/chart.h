@@ -31,14 +31,15 @@ class Chart {
   void dot(double x, double y, double radius_px, const drawing::Color& color);
   /// From the x axis up to `y`, between both x.
   void bar(double from_x, double to_x, double y, const drawing::Color& color);
-  /// A line of text with a sample of its colour, the `row`th of a block at the right.
-  void key(int row, const std::string& text, const drawing::Color& color);
+  /// What a colour means: a sample and a text below the axis, after those before it.
+  void key(const std::string& text, const drawing::Color& color);
 
  private:
   void draw_axes(const ChartText& text);
 
   cv::Mat picture_;
   cv::Rect field_;
+  drawing::Point next_key_;
   Range x_, y_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 using drawing::Color;
 using drawing::Point;
 
-constexpr int kPanel = 480;
+constexpr int kPanel = 480, kHeight = 528;
 constexpr double kLargestBar = 0.22;  // of the chart's height, for the most frequent stretch
 
 const Color kStated(160, 110, 40), kFitted(40, 120, 230), kIdeal(150, 142, 136),
@@ -74,8 +74,8 @@ void draw_bins(const cv::Mat& picture, const cv::Rect& place, const Judgement& j
   }
   chart.line(means, {kStated, 2});
   for (const Point& p : means) chart.dot(p.x, p.y, 4, kStated);
-  chart.key(0, "per bin, with its 95 % interval", kStated);
-  chart.key(1, "how many, relative", kCount);
+  chart.key("bins, with 95 % intervals", kStated);
+  chart.key("how many", kCount);
 }
 
 void draw_scores(const cv::Mat& picture, const cv::Rect& place, const Judgement& judgement,
@@ -121,9 +121,9 @@ void draw_scores(const cv::Mat& picture, const cv::Rect& place, const Judgement&
   chart.line(stated, {kStated, 2});
   chart.line(fitted, {kFitted, 2});
   for (const CurvePoint& p : curve) chart.dot(p.score, p.probability, 4, kFitted);
-  chart.key(0, "stated", kStated);
-  chart.key(1, "isotonic regression", kIsotonic);
-  chart.key(2, "fitted curve", kFitted);
+  chart.key("stated", kStated);
+  chart.key("isotonic regression", kIsotonic);
+  chart.key("fitted curve", kFitted);
 }
 
 void draw_positions(const cv::Mat& picture, const cv::Rect& place, const Judgement& judgement) {
@@ -131,8 +131,8 @@ void draw_positions(const cv::Mat& picture, const cv::Rect& place, const Judgeme
   std::sort(errors.begin(), errors.end());
   std::vector<std::string> remarks = {"no position could be judged"};
   if (const auto c = consistency_of(errors)) {
-    remarks = {counted(errors.size(), "positions"), "true over stated variance: mean " +
-                                                        decimals(c->mean, 2) + ", by median " +
+    remarks = {counted(errors.size(), "positions"), "true / stated variance: mean " +
+                                                        decimals(c->mean, 2) + ", median " +
                                                         decimals(c->median_ratio, 2)};
   }
   Chart chart(picture, place, {0, 1}, {0, 1},
@@ -148,18 +148,18 @@ void draw_positions(const cv::Mat& picture, const cv::Rect& place, const Judgeme
     inside.emplace_back(stated, static_cast<double>(up_to) / static_cast<double>(errors.size()));
   }
   chart.line(inside, {kStated, 2});
-  chart.key(0, "observed", kStated);
-  chart.key(1, "consistent", kIdeal);
+  chart.key("observed", kStated);
+  chart.key("consistent", kIdeal);
 }
 
 }  // namespace
 
 cv::Mat draw_reliability(const Judgement& judgement, std::span<const ReliabilityBin> bins,
                          std::span<const CurvePoint> curve) {
-  cv::Mat picture(kPanel, 3 * kPanel, CV_8UC3, drawing::light_theme().paper);
-  draw_bins(picture, {0, 0, kPanel, kPanel}, judgement, bins);
-  draw_scores(picture, {kPanel, 0, kPanel, kPanel}, judgement, curve);
-  draw_positions(picture, {2 * kPanel, 0, kPanel, kPanel}, judgement);
+  cv::Mat picture(kHeight, 3 * kPanel, CV_8UC3, drawing::light_theme().paper);
+  draw_bins(picture, {0, 0, kPanel, kHeight}, judgement, bins);
+  draw_scores(picture, {kPanel, 0, kPanel, kHeight}, judgement, curve);
+  draw_positions(picture, {2 * kPanel, 0, kPanel, kHeight}, judgement);
   return picture;
 }
 

@@ -19,7 +19,7 @@ struct Script {
     error.position_m = {x_m, 0};
     book.add(error, [&] {
       drawn.push_back(frame);
-      return Pictured{cv::Mat(1, 1, CV_8UC3), "at " + std::to_string(frame)};
+      return Pictured{cv::Mat(1, 1, CV_8UC3), "here", "at " + std::to_string(frame)};
     });
   }
 };
@@ -38,6 +38,7 @@ TEST(Episodes, GoOnOverSmallGapsAndAreDrawnWheneverTheyHaveDoubled) {
   EXPECT_EQ(longest[0].last_frame, 9);
   EXPECT_EQ(longest[0].pictured_frame, 9);
   EXPECT_EQ(longest[0].caption, "at 9");
+  EXPECT_EQ(longest[0].view, "here");
 }
 
 TEST(Episodes, PeopleAreToldApartByWhoTheyAre) {

@@ -77,7 +77,7 @@ TEST(ReliabilityDiagram, WritesTheCurveAsADetectorTakesIt) {
   EXPECT_THAT(r.artifacts[2].what, testing::HasSubstr("[[1.0,0.05],[3.0,0.95]]"));
   EXPECT_THAT(content_of(r.artifacts[1].file), testing::HasSubstr("0.4,0.5,9,0.4,0\n"));
   EXPECT_THAT(content_of(r.artifacts[1].file), testing::HasSubstr("0.5,0.6,0,,\n"));
-  EXPECT_EQ(cv::imread(r.artifacts[0].file.string()).size(), cv::Size(1440, 480));
+  EXPECT_EQ(cv::imread(r.artifacts[0].file.string()).size(), cv::Size(1440, 528));
 }
 
 TEST(ReliabilityDiagram, DoesWithoutAnyObservation) {
