@@ -56,6 +56,7 @@ ColorEvidence::ColorEvidence(const ColorEvidence& other, Patches explained)
       blind_(other.blind_),
       counts_(other.counts_),
       memos_(other.memos_),
+      alone_(other.alone_),
       explained_(std::move(explained)) {}
 
 const cv::Mat& ColorEvidence::lab() const {
@@ -105,13 +106,29 @@ std::shared_ptr<const ColorEvidence> ColorEvidence::without(
     const SpanTemplates& templates, std::span<const std::uint32_t> which) const {
   Patches patches = explained_;
   for (const std::uint32_t index : which) {
-    const SpanTemplate& t = templates.at(index);
-    if (t.near_box.empty()) continue;
-    // with the gap: arms are the person's too
-    patches.push_back(std::make_shared<const ExplainedPatch>(
-        templates.runs(t.near, t.outer), t.near_box, segmentation_.mask, blind_->mask, patches));
+    if (!templates.at(index).near_box.empty()) {
+      patches.push_back(patch_of(templates, index, patches));
+    }
   }
   return std::shared_ptr<const ColorEvidence>(new ColorEvidence(*this, std::move(patches)));
+}
+
+ColorEvidence::PatchPtr ColorEvidence::patch_of(const SpanTemplates& templates, std::size_t index,
+                                                const Patches& before) const {
+  const SpanTemplate& t = templates.at(index);
+  const auto make = [&] {  // with the gap: arms are the person's too
+    return std::make_shared<const ExplainedPatch>(templates.runs(t.near, t.outer), t.near_box,
+                                                  segmentation_.mask, blind_->mask, before);
+  };
+  const bool alone = std::none_of(before.begin(), before.end(), [&](const PatchPtr& patch) {
+    return !(patch->box() & t.near_box).empty();
+  });
+  if (!alone) return make();
+  Memo<PatchPtr>& memo = alone_->of(templates.serial(), templates.size());
+  if (memo.knows(index)) return memo.at(index);
+  PatchPtr patch = make();
+  memo.keep(index, patch);
+  return patch;
 }
 
 }  // namespace plaza::color

@@ -72,7 +72,9 @@ class ColorEvidence final : public Evidence {
 
  private:
   using Patches = std::vector<std::shared_ptr<const ExplainedPatch>>;
+  using PatchPtr = std::shared_ptr<const ExplainedPatch>;
   ColorEvidence(const ColorEvidence& other, Patches explained);
+  PatchPtr patch_of(const SpanTemplates& templates, std::size_t index, const Patches& before) const;
 
   State state_;
   cv::Mat image_;
@@ -81,6 +83,8 @@ class ColorEvidence final : public Evidence {
   std::shared_ptr<const Blind> blind_;
   std::shared_ptr<const AreaCounts> counts_;  ///< of foreground, without what is blind
   std::shared_ptr<Memos<TemplateCounts>> memos_ = std::make_shared<Memos<TemplateCounts>>();
+  /// Of people whom nobody before them touches: a search takes the same away again and again.
+  std::shared_ptr<Memos<PatchPtr>> alone_ = std::make_shared<Memos<PatchPtr>>();
   opencl::OnDevice<cv::UMat> on_device_;  ///< counts_
   Patches explained_;                     ///< in the order in which they were accepted
   mutable std::once_flag lab_once_;

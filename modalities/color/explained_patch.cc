@@ -54,6 +54,7 @@ Counts ExplainedPatch::count(std::span<const BoundaryRun> runs) const {
   const auto stride = static_cast<std::size_t>(box_.width) + 1;
   Counts sum;
   for (const BoundaryRun& r : runs) {
+    if (std::min(r.plus_row, r.minus_row) >= box_.y + box_.height) break;  // they go downwards
     // beyond the box the running counts are those of its border
     const int x = std::clamp(r.x - box_.x, 0, box_.width);
     const int plus = std::clamp(r.plus_row - box_.y, 0, box_.height);

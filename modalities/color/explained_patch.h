@@ -22,7 +22,7 @@ class ExplainedPatch {
 
   const cv::Rect& box() const { return box_; }
   /// How much of a region's foreground this takes away, and how many pixels it hides that weren't
-  /// hidden before.
+  /// hidden before. Runs as boundary_of() orders them.
   Counts count(std::span<const BoundaryRun> runs) const;
   /// Whether it hides a pixel of the image.
   bool hides(int x, int y) const {

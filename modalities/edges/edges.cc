@@ -317,8 +317,12 @@ EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& 
   EdgeEvidence::Left left;
   left.points.assign(before.points().begin(), before.points().end());
   std::vector<cv::Rect> removed;
+  Memo<EdgeEvidence::PointsPtr>& memo = before.accounted(contours);
   for (const std::uint32_t index : which) {
-    const cv::Rect box = take_away(before, contours, index, *workshop, left.points);
+    EdgeEvidence::PointsPtr points =
+        memo.knows(index) ? memo.at(index) : accounted_for(before, contours, index, *workshop);
+    memo.keep(index, points);
+    const cv::Rect box = take_away(*points, *workshop, left.points);
     if (!box.empty()) removed.push_back(box);
   }
   left.patches = patched(*view.layout, {before.patches().begin(), before.patches().end()}, removed,
@@ -326,15 +330,29 @@ EvidencePtr Edges::do_explain(const EvidencePtr& evidence, const TemplateBatch& 
   return std::make_shared<const EdgeEvidence>(before, std::move(left));
 }
 
-cv::Rect Edges::take_away(const EdgeEvidence& evidence, const EdgeTemplates& contours,
-                          std::size_t index, Workshop& workshop, std::vector<EdgePoint>& points) {
+cv::Rect Edges::take_away(std::span<const EdgePoint> gone, Workshop& workshop,
+                          std::vector<EdgePoint>& points) {
+  for (const EdgePoint p : gone) workshop.taken(p.y, p.x) = 1;
+  cv::Rect box;
+  std::erase_if(points, [&](const EdgePoint p) {
+    if (workshop.taken(p.y, p.x) == 0) return false;
+    box |= cv::Rect(p.x, p.y, 1, 1);
+    return true;
+  });
+  for (const EdgePoint p : gone) workshop.taken(p.y, p.x) = 0;
+  return box;
+}
+
+EdgeEvidence::PointsPtr Edges::accounted_for(const EdgeEvidence& evidence,
+                                             const EdgeTemplates& contours, std::size_t index,
+                                             Workshop& workshop) {
   const PlaneLayout& layout = *evidence.layout();
   const LabelImage& labels = evidence.block().labels;
-  std::vector<cv::Point> marked;
+  auto marked = std::make_shared<std::vector<EdgePoint>>();
   const auto mark = [&](int x, int y) {
     if ((labels.at(x, y) & kForeground) == 0 || workshop.taken(y, x) != 0) return;
     workshop.taken(y, x) = 1;
-    marked.emplace_back(x, y);
+    marked->push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
   };
   // along the normal, which is a line of the direction, to both sides
   const auto mark_normal = [&](std::size_t d, cv::Point p) {
@@ -369,14 +387,8 @@ cv::Rect Edges::take_away(const EdgeEvidence& evidence, const EdgeTemplates& con
   for (const RowSpan& span : contours.spans(index)) {
     for (int x = span.begin; x < span.end; ++x) mark(x, span.row);
   }
-  cv::Rect box;
-  std::erase_if(points, [&](const EdgePoint p) {
-    if (workshop.taken(p.y, p.x) == 0) return false;
-    box |= cv::Rect(p.x, p.y, 1, 1);
-    return true;
-  });
-  for (const cv::Point p : marked) workshop.taken(p) = 0;
-  return box;
+  for (const EdgePoint p : *marked) workshop.taken(p.y, p.x) = 0;
+  return marked;
 }
 
 }  // namespace plaza::edges

@@ -75,9 +75,13 @@ class Edges final : public Modality {
   EvidencePtr do_explain(const EvidencePtr& evidence, const TemplateBatch& templates,
                          std::span<const std::uint32_t> which) const override;
 
-  /// Takes a template's edges out of `points`; the rectangle around those that it took.
-  static cv::Rect take_away(const EdgeEvidence& evidence, const EdgeTemplates& contours,
-                            std::size_t index, Workshop& workshop, std::vector<EdgePoint>& points);
+  /// The foreground edges of an image that a template accounts for, each once.
+  static EdgeEvidence::PointsPtr accounted_for(const EdgeEvidence& evidence,
+                                               const EdgeTemplates& contours, std::size_t index,
+                                               Workshop& workshop);
+  /// Takes `gone` out of `points`; the rectangle around those that were there.
+  static cv::Rect take_away(std::span<const EdgePoint> gone, Workshop& workshop,
+                            std::vector<EdgePoint>& points);
   Pool<EvidenceBlock>::Handle take_block(const View& view) const;
   const View& view_of(const EdgeEvidence& evidence) const;
 

@@ -69,6 +69,11 @@ class EdgeEvidence final : public Evidence {
   Memo<double>& matched(const EdgeTemplates& templates) const {
     return memos_->of(templates.serial(), templates.size());
   }
+  /// Edges of the image that templates account for, whatever others do.
+  using PointsPtr = std::shared_ptr<const std::vector<EdgePoint>>;
+  Memo<PointsPtr>& accounted(const EdgeTemplates& templates) const {
+    return accounted_->of(templates.serial(), templates.size());
+  }
   /// The planes on the OpenCL device, made when first asked for.
   const opencl::OnDevice<cv::UMat>& on_device() const { return *on_device_; }
   const HiddenRegion* hidden() const { return hidden_.get(); }  ///< null: all counts
@@ -86,6 +91,7 @@ class EdgeEvidence final : public Evidence {
   std::shared_ptr<const HiddenRegion> hidden_;
   bool blank_;
   std::shared_ptr<Memos<double>> memos_ = std::make_shared<Memos<double>>();
+  std::shared_ptr<Memos<PointsPtr>> accounted_ = std::make_shared<Memos<PointsPtr>>();
   std::shared_ptr<const opencl::OnDevice<cv::UMat>> on_device_ =
       std::make_shared<const opencl::OnDevice<cv::UMat>>();
 };

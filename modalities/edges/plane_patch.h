@@ -57,6 +57,7 @@ class PatchedSums {
 
  private:
   void add(const std::uint8_t* bytes, int length) {
+    __builtin_prefetch(bytes);  // summed up when all are listed
     bytes_.push_back(bytes);
     lengths_.push_back(static_cast<std::uint8_t>(length));
   }
