@@ -141,8 +141,7 @@ std::vector<CellIndex> GridSearch::wanted_cells(std::size_t level,
   return wanted;
 }
 
-std::vector<GridSearch::Values> GridSearch::evaluate(std::size_t layer,
-                                                     std::span<const CellIndex> wanted,
+std::vector<GridSearch::Values> GridSearch::evaluate(std::size_t layer, const ViewCells& wanted,
                                                      const AllEvidence& evidence) const {
   struct Task {
     std::size_t pair = 0;
@@ -152,8 +151,8 @@ std::vector<GridSearch::Values> GridSearch::evaluate(std::size_t layer,
   std::vector<std::vector<std::size_t>> places(cameras_);  // of their cells in `wanted`
   std::vector<Task> tasks;
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const std::uint32_t index = template_of_cell_[layer][camera][wanted[i]];
+    for (std::size_t i = 0; i < wanted[camera].size(); ++i) {
+      const std::uint32_t index = template_of_cell_[layer][camera][wanted[camera][i]];
       if (index == kUnseen) continue;
       which[camera].push_back(index);
       places[camera].push_back(i);
@@ -166,7 +165,10 @@ std::vector<GridSearch::Values> GridSearch::evaluate(std::size_t layer,
       }
     }
   }
-  std::vector<Values> values(witnesses_.size() * cameras_, Values(wanted.size(), kUnknown));
+  std::vector<Values> values;
+  for (std::size_t pair = 0; pair < witnesses_.size() * cameras_; ++pair) {
+    values.emplace_back(wanted[pair % cameras_].size(), kUnknown);
+  }
   parallel_for(tasks.size(), [&](std::size_t t) {
     const Task& task = tasks[t];
     const std::size_t w = task.pair / cameras_, camera = task.pair % cameras_;
@@ -188,9 +190,9 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
   std::vector<double> baselines(pairs, kUnknown);
   for (std::size_t level = 0; level < grid_->levels(); ++level) {
     const LevelLikelihood* parents = level > 0 ? &result.levels.back() : nullptr;
-    const std::vector<CellIndex> wanted = wanted_cells(level, parents);
+    const ViewCells wanted(cameras_, wanted_cells(level, parents));
     const std::vector<Values> values = evaluate(level, wanted, evidence);
-    result.evaluated += wanted.size();
+    result.evaluated += wanted.front().size();
     for (std::size_t pair = 0; pair < pairs; ++pair) {
       if (!std::isfinite(baselines[pair])) baselines[pair] = median_of_known(values[pair]);
     }
@@ -209,49 +211,64 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
         here.trust[cell] = parents->trust[parent];
       }
     }
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      combine(level, values, i, baselines, wanted[i], here);
-    }
+    combine(level, wanted, values, baselines, here);
     result.levels.push_back(std::move(here));
   }
   result.baselines = std::move(baselines);
   return result;
 }
 
-void GridSearch::combine(std::size_t layer, std::span<const Values> values, std::size_t index,
-                         std::span<const double> baselines, CellIndex cell,
-                         LevelLikelihood& level) const {
-  double sum = 0, trust = 0;
+void GridSearch::combine(std::size_t layer, const ViewCells& wanted, std::span<const Values> values,
+                         std::span<const double> baselines, LevelLikelihood& level) const {
+  std::vector<CellIndex> cells;
+  std::vector<char> listed(level.joint.size(), 0);
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
-    double view = 0;
-    bool told = false;
-    for (std::size_t w = 0; w < witnesses_.size(); ++w) {
-      const std::size_t pair = w * cameras_ + camera;
-      const double value = values[pair][index];
-      if (!std::isfinite(value)) continue;
-      view += witnesses_[w].weight * (value - baselines[pair]);
-      told = true;
+    for (std::size_t i = 0; i < wanted[camera].size(); ++i) {
+      double sum = 0;
+      bool told = false;
+      for (std::size_t w = 0; w < witnesses_.size(); ++w) {
+        const std::size_t pair = w * cameras_ + camera;
+        const double value = values[pair][i];
+        if (!std::isfinite(value)) continue;
+        sum += witnesses_[w].weight * (value - baselines[pair]);
+        told = true;
+      }
+      const CellIndex cell = wanted[camera][i];
+      level.views[camera][cell] = told ? sum : kUnknown;
+      if (listed[cell] == 0) cells.push_back(cell);
+      listed[cell] = 1;
     }
-    level.views[camera][cell] = told ? view : kUnknown;
-    if (!told) continue;
-    const double share = trust_[layer][camera][cell];
-    sum += share * view;
-    trust += share;
   }
-  level.trust[cell] = trust;
-  level.joint[cell] = trust > 0 ? sum : kUnknown;
-  level.per_view[cell] = trust > 0 ? sum / trust : kUnknown;
-  level.evaluated[cell] = trust > 0 ? 1 : 0;
+  join_layer(layer, cells, level);
+}
+
+void GridSearch::join(std::size_t size, std::span<const CellIndex> cells,
+                      LevelLikelihood& finest) const {
+  join_layer(grid_->levels() - 1 + size, cells, finest);
+}
+
+void GridSearch::join_layer(std::size_t layer, std::span<const CellIndex> cells,
+                            LevelLikelihood& level) const {
+  for (const CellIndex cell : cells) {
+    double sum = 0, trust = 0;
+    for (std::size_t camera = 0; camera < cameras_; ++camera) {
+      const double view = level.views[camera][cell];
+      if (!std::isfinite(view)) continue;
+      const double share = trust_[layer][camera][cell];
+      sum += share * view;
+      trust += share;
+    }
+    level.trust[cell] = trust;
+    level.joint[cell] = trust > 0 ? sum : kUnknown;
+    level.per_view[cell] = trust > 0 ? sum / trust : kUnknown;
+    level.evaluated[cell] = trust > 0 ? 1 : 0;
+  }
 }
 
 void GridSearch::judge(const AllEvidence& evidence, std::span<const double> baselines,
-                       std::size_t size, std::span<const CellIndex> cells,
-                       LevelLikelihood& finest) const {
+                       std::size_t size, const ViewCells& cells, LevelLikelihood& finest) const {
   const std::size_t layer = grid_->levels() - 1 + size;
-  const std::vector<Values> values = evaluate(layer, cells, evidence);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    combine(layer, values, i, baselines, cells[i], finest);
-  }
+  combine(layer, cells, evaluate(layer, cells, evidence), baselines, finest);
 }
 
 AllEvidence GridSearch::explain(const AllEvidence& evidence, std::span<const PlacedBody> people,
@@ -273,24 +290,34 @@ AllEvidence GridSearch::explain(const AllEvidence& evidence, std::span<const Pla
         const std::uint32_t index = template_of_cell_[layer][camera][body.cell];
         if (index != kUnseen) which.push_back(index);
       }
+      // who isn't in a view leaves its evidence as it is
+      if (which.empty()) continue;
       view = witnesses_[w].modality->explain(view, *batches_[layer][pair], which);
     }
   });
   return rest;
 }
 
-bool GridSearch::touch(CellIndex a, CellIndex b) const {
-  return std::any_of(reach_.begin(), reach_.end(), [&](const std::vector<Box>& reach) {
-    const Box &p = reach[a], &q = reach[b];
-    return p.width > 0 && q.width > 0 && p.left < q.right() && q.left < p.right() &&
-           p.top < q.bottom() && q.top < p.bottom();
-  });
+bool GridSearch::touch(std::size_t camera, CellIndex a, CellIndex b) const {
+  const Box &p = reach_[camera][a], &q = reach_[camera][b];
+  return p.width > 0 && q.width > 0 && p.left < q.right() && q.left < p.right() &&
+         p.top < q.bottom() && q.top < p.bottom();
 }
 
-std::vector<CellIndex> GridSearch::touching(CellIndex cell) const {
-  std::vector<CellIndex> found;
-  std::copy_if(seen_cells_.back().begin(), seen_cells_.back().end(), std::back_inserter(found),
-               [&](CellIndex other) { return touch(cell, other); });
+bool GridSearch::touch(CellIndex a, CellIndex b) const {
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    if (touch(camera, a, b)) return true;
+  }
+  return false;
+}
+
+ViewCells GridSearch::touching(CellIndex cell) const {
+  ViewCells found(cameras_);
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    std::copy_if(seen_cells_.back().begin(), seen_cells_.back().end(),
+                 std::back_inserter(found[camera]),
+                 [&](CellIndex other) { return touch(camera, cell, other); });
+  }
   return found;
 }
 

@@ -43,6 +43,9 @@ struct LevelLikelihood {
   std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
 };
 
+/// Cells of a level that are looked at in each view: [camera].
+using ViewCells = std::vector<std::vector<CellIndex>>;
+
 /// Evidence of one frame: [witness][camera]; null where the view has none.
 using AllEvidence = std::vector<std::vector<EvidencePtr>>;
 
@@ -89,27 +92,35 @@ class GridSearch {
     return hierarchy_->layers().subspan(grid_->levels() - 1);
   }
   /// Evaluates cells of the finest level against other evidence, with bodies of sizes()[size], and
-  /// writes their values, and nothing but theirs, to `finest`.
+  /// writes their values, and nothing but theirs, to `finest`: of each view those of its own cells;
+  /// what the other views have said of these cells before stays and counts.
   void judge(const AllEvidence& evidence, std::span<const double> baselines, std::size_t size,
-             std::span<const CellIndex> cells, LevelLikelihood& finest) const;
+             const ViewCells& cells, LevelLikelihood& finest) const;
+  /// Sums up anew what `finest` holds of these cells view by view.
+  void join(std::size_t size, std::span<const CellIndex> cells, LevelLikelihood& finest) const;
   /// The evidence without what people in these cells of the finest level account for. With
   /// `behind`, in each view only without those of them who stand nearer to the camera than that
   /// cell, and could therefore hide who stands there.
   AllEvidence explain(const AllEvidence& evidence, std::span<const PlacedBody> people,
                       std::optional<CellIndex> behind = {}) const;
-  /// Cells of the finest level, rising, whose people could share evidence with somebody in `cell`:
-  /// their silhouettes' boxes, grown by an eighth of their heights, meet in some view.
-  std::vector<CellIndex> touching(CellIndex cell) const;
+  /// Cells of the finest level whose people could share evidence with somebody in `cell`: their
+  /// silhouettes' boxes, grown by an eighth of their heights, meet in that view.
+  ViewCells touching(CellIndex cell) const;
+  /// Whether they could in any view.
   bool touch(CellIndex a, CellIndex b) const;
 
  private:
   using Values = std::vector<double>;
-  /// Evaluates `wanted` cells: [witness * cameras + camera][index in `wanted`], NaN where unknown.
-  std::vector<Values> evaluate(std::size_t layer, std::span<const CellIndex> wanted,
+  /// Matches each view's cells: [witness * cameras + camera][index in the view's list], NaN where
+  /// unknown.
+  std::vector<Values> evaluate(std::size_t layer, const ViewCells& wanted,
                                const AllEvidence& evidence) const;
-  /// Writes to `level` what the values of all pairs at `index` say of a cell of a layer.
-  void combine(std::size_t layer, std::span<const Values> values, std::size_t index,
-               std::span<const double> baselines, CellIndex cell, LevelLikelihood& level) const;
+  /// Writes to `level` what these values say of each view's cells, and joins those.
+  void combine(std::size_t layer, const ViewCells& wanted, std::span<const Values> values,
+               std::span<const double> baselines, LevelLikelihood& level) const;
+  void join_layer(std::size_t layer, std::span<const CellIndex> cells,
+                  LevelLikelihood& level) const;
+  bool touch(std::size_t camera, CellIndex a, CellIndex b) const;
   std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
 
   const StateGrid* grid_;

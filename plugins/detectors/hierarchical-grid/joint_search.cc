@@ -37,13 +37,14 @@ class JointSearch::Scenario {
         surface_(smoothed(grid_, now_.joint, search.neighbours_)),
         alone_(search.priors_.size(), unknown_like(now_)),
         known_(search.priors_.size(), std::vector<char>(surface_.size(), 0)),
-        moved_(surface_.size(), 0) {}
+        seen_alone_(first.levels.back()),
+        moved_(now_.views.size(), std::vector<char>(surface_.size(), 0)) {}
 
   void accept() {
     while (people_.size() < static_cast<std::size_t>(s_.options_.most)) {
       const std::optional<CellIndex> best = best_cell();
       if (!best) break;
-      changed(*best);
+      disturb(*best);
       people_.emplace_back().person.body.cell = *best;
       const PlacedBody body[] = {people_.back().person.body};
       rest_ = s_.search_->explain(rest_, body);
@@ -83,12 +84,14 @@ class JointSearch::Scenario {
   /// What is left when everybody has moved.
   void take_away_again() {
     rest_ = s_.search_->explain(evidence_, bodies_of_others(people_.size()));
-    std::vector<CellIndex> cells;
-    for (std::size_t i = 0; i < moved_.size(); ++i) {
-      if (moved_[i] != 0) cells.push_back(static_cast<CellIndex>(i));
+    ViewCells cells(moved_.size());
+    for (std::size_t camera = 0; camera < moved_.size(); ++camera) {
+      for (std::size_t i = 0; i < moved_[camera].size(); ++i) {
+        if (moved_[camera][i] != 0) cells[camera].push_back(static_cast<CellIndex>(i));
+      }
+      std::fill(moved_[camera].begin(), moved_[camera].end(), 0);
     }
-    refresh(cells);
-    std::fill(moved_.begin(), moved_.end(), 0);
+    refresh(std::move(cells));
   }
 
   std::vector<FoundPerson> people() && {
@@ -135,24 +138,47 @@ class JointSearch::Scenario {
     return best;
   }
 
-  /// Judges cells again by what is left.
-  void refresh(const std::vector<CellIndex>& cells) {
-    s_.search_->judge(rest_, baselines_, 0, cells, now_);
-    std::vector<char> todo(surface_.size(), 0);
-    for (const CellIndex cell : cells) {
-      for (const CellIndex other : s_.around(cell, s_.neighbours_)) todo[other] = 1;
+  /// Judges cells again by what is left, in views where that has changed; in all views where they
+  /// were never judged.
+  void refresh(ViewCells cells) {
+    std::vector<char> looked(surface_.size(), 0), todo = looked;
+    std::vector<CellIndex> never;
+    for (const std::vector<CellIndex>& view : cells) {
+      for (const CellIndex cell : view) {
+        if (looked[cell] != 0) continue;
+        looked[cell] = 1;
+        if (now_.evaluated[cell] == 0) never.push_back(cell);
+        for (const CellIndex other : s_.around(cell, s_.neighbours_)) todo[other] = 1;
+      }
     }
+    if (!never.empty()) {
+      for (std::vector<CellIndex>& view : cells) {
+        view.insert(view.end(), never.begin(), never.end());
+        std::sort(view.begin(), view.end());
+        view.erase(std::unique(view.begin(), view.end()), view.end());
+      }
+    }
+    s_.search_->judge(rest_, baselines_, 0, cells, now_);
     for (std::size_t i = 0; i < todo.size(); ++i) {
       if (todo[i] == 0) continue;
       surface_[i] = smoothed_at(grid_, now_.joint, s_.neighbours_, static_cast<CellIndex>(i));
     }
   }
 
-  void changed(CellIndex cell) {
+  /// Whoever could share evidence with somebody who came, moved or went there is to be judged
+  /// again.
+  void disturb(CellIndex cell) {
     for (Entry& entry : people_) {
       entry.stale = entry.stale || s_.search_->touch(cell, entry.person.body.cell);
     }
-    for (const CellIndex other : s_.search_->touching(cell)) moved_[other] = 1;
+  }
+
+  void changed(CellIndex cell) {
+    disturb(cell);
+    const ViewCells touching = s_.search_->touching(cell);
+    for (std::size_t camera = 0; camera < touching.size(); ++camera) {
+      for (const CellIndex other : touching[camera]) moved_[camera][other] = 1;
+    }
   }
 
   std::vector<PlacedBody> bodies_of_others(std::size_t k) const {
@@ -234,7 +260,22 @@ class JointSearch::Scenario {
       }
     }
     if (missing.empty()) return;
-    s_.search_->judge(own_, baselines_, size, missing, alone_[size]);
+    ViewCells unseen(evidence_.front().size());
+    for (std::size_t camera = 0; camera < unseen.size(); ++camera) {
+      const bool whole =
+          std::equal(own_.begin(), own_.end(), evidence_.begin(),
+                     [&](const auto& a, const auto& b) { return a[camera] == b[camera]; });
+      for (const CellIndex cell : missing) {
+        // where nobody else is in a view, the first search has seen all that there is
+        if (whole && size == 0 && seen_alone_.evaluated[cell] != 0) {
+          alone_[size].views[camera][cell] = seen_alone_.views[camera][cell];
+        } else {
+          unseen[camera].push_back(cell);
+        }
+      }
+    }
+    s_.search_->judge(own_, baselines_, size, unseen, alone_[size]);
+    s_.search_->join(size, missing, alone_[size]);
     for (const CellIndex cell : missing) looked_at_.push_back({cell, size});
   }
 
@@ -260,7 +301,8 @@ class JointSearch::Scenario {
   std::vector<PlacedBody> looked_at_;     ///< where known_
   std::vector<double> alone_surface_ = alone_.front().joint;
   std::vector<Entry> people_;
-  std::vector<char> moved_;  ///< [cell]: whether a change has touched it
+  const LevelLikelihood& seen_alone_;     ///< by all of the evidence
+  std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether a move has touched it
 };
 
 JointSearch::JointSearch(const StateGrid& grid, const GridSearch& search,

@@ -72,7 +72,8 @@ class Explained : public ::testing::Test {
     }
     const SearchResult result = search_.search(evidence);
     LevelLikelihood level = result.levels.back();
-    search_.judge(search_.explain(evidence, people, behind), result.baselines, 0, both_, level);
+    search_.judge(search_.explain(evidence, people, behind), result.baselines, 0,
+                  ViewCells(views_.size(), both_), level);
     return level;
   }
   CellIndex cell_at(const Eigen::Vector2d& position) const {
