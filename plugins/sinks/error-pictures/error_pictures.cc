@@ -103,7 +103,8 @@ struct ErrorPictures::Scenery {
   cv::Mat image(std::size_t camera) const {
     return frames != nullptr && camera < frames->views.size() ? frames->views[camera] : cv::Mat();
   }
-  /// The view that shows most of somebody's box; none that doesn't show any of it.
+  /// The view that shows somebody's box largest, where a cut one counts by the square of what is
+  /// left; none that doesn't show any of it.
   template <class BoxIn>
   std::optional<BestView> best_view(const Scene& scene, const BoxIn& box_in) const {
     std::optional<BestView> best;
@@ -112,9 +113,10 @@ struct ErrorPictures::Scenery {
       const Box* const box = box_in(camera);
       if (box == nullptr) continue;
       const double area = seen_area(*box, scene.cameras[camera]);
-      if (area <= most) continue;
+      const double merit = area > 0 ? area * std::pow(area / box->area(), 2) : 0;
+      if (merit <= most) continue;
       best = BestView{camera, *box};
-      most = area;
+      most = merit;
     }
     return best;
   }
