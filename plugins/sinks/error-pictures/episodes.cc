@@ -51,7 +51,7 @@ void EpisodeBook::add(const FiledError& error, const std::function<Pictured()>& 
   if (!std::has_single_bit(static_cast<std::uint64_t>(episode->count))) return;
   Pictured pictured = draw();
   episode->picture = std::move(pictured.picture);
-  episode->view = std::move(pictured.view);
+  episode->who = std::move(pictured.who);
   episode->caption = std::move(pictured.caption);
   episode->pictured_frame = error.frame;
 }

@@ -19,8 +19,8 @@ struct Episode {
   std::optional<std::int64_t> id;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< of the last one
   std::int64_t pictured_frame = 0;
-  cv::Mat picture;            ///< from the later half of it
-  std::string view, caption;  ///< of the picture
+  cv::Mat picture;           ///< from the later half of it
+  std::string who, caption;  ///< of the picture
 };
 
 /// An error to be filed.
@@ -32,7 +32,7 @@ struct FiledError {
 
 struct Pictured {
   cv::Mat picture;
-  std::string view, caption;
+  std::string who, caption;
 };
 
 /// The episodes of one kind of error. Memory is bounded by those under way and `most` others.

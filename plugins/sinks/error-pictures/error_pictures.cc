@@ -68,7 +68,7 @@ std::vector<drawing::Tile> tiles_of(const EpisodeBook& book) {
     tile.image = episode.picture;
     tile.name = "frame " + std::to_string(episode.pictured_frame + 1);
     if (episode.count > 1) tile.name += " (1/" + std::to_string(episode.count) + ")";
-    if (!episode.view.empty()) tile.name += ", " + episode.view;
+    tile.name += ", " + episode.who;
     tile.caption = episode.caption;
   }
   return tiles;
@@ -213,12 +213,12 @@ void ErrorPictures::file_miss(const Scenery& scenery, const Miss& miss) {
       focus = around(focus, *scenery.observed[*miss.alarm][view->camera]);
     }
     const std::string reason = reason_of(miss, options_);
-    std::string caption = "person " + std::to_string(person.id);
-    caption.append(reason.empty() ? "" : ", ").append(reason);
+    std::string caption = view_name(view->camera);
+    caption.append(caption.empty() || reason.empty() ? "" : ", ").append(reason);
     return {
         crop_around(scenery.image(view->camera), focus, scenery.boxes(view->camera, &miss, nullptr),
                     sorter_.occluders(view->camera), {kTileWidth, kTileHeight}),
-        view_name(view->camera), caption};
+        "person " + std::to_string(person.id), caption};
   });
 }
 
@@ -242,11 +242,10 @@ void ErrorPictures::file_alarm(const Scenery& scenery, const FalseAlarm& alarm) 
         focus = around(focus, *box);
       }
     }
-    std::string caption = "probability " + percent(observation.probability);
     return {crop_around(scenery.image(view->camera), focus,
                         scenery.boxes(view->camera, nullptr, &alarm),
                         sorter_.occluders(view->camera), {kTileWidth, kTileHeight}),
-            view_name(view->camera), caption};
+            "p " + percent(observation.probability), view_name(view->camera)};
   });
 }
 

@@ -38,7 +38,7 @@ TEST(Episodes, GoOnOverSmallGapsAndAreDrawnWheneverTheyHaveDoubled) {
   EXPECT_EQ(longest[0].last_frame, 9);
   EXPECT_EQ(longest[0].pictured_frame, 9);
   EXPECT_EQ(longest[0].caption, "at 9");
-  EXPECT_EQ(longest[0].view, "here");
+  EXPECT_EQ(longest[0].who, "here");
 }
 
 TEST(Episodes, PeopleAreToldApartByWhoTheyAre) {
