@@ -50,23 +50,26 @@ Diagnostics ColorModality::do_check() const {
 }
 
 Modality::Prepared ColorModality::do_prepare(const cv::Mat& image, std::size_t camera,
-                                             const cv::Mat& previous) const {
+                                             const Past& past) const {
   if (views_.empty()) throw InternalError("the background has not been learned yet");
   const View& view = views_[camera];
-  if (!view.segmenter) {
+  if (!view.ground) {
     return {std::make_shared<ColorEvidence>(ColorEvidence::State::kNoBackground, image,
                                             color::Segmentation(), nullptr, view.blind),
             cv::Mat()};
   }
-  color::Segmentation segmentation = view.segmenter->segment(image, previous);
+  color::Segmented seen =
+      color::segment_living(image, past, view.ground, 1 / scene().frame_rate_hz, living(),
+                            [this](color::Background b) { return make_ground(std::move(b)); });
+  color::Segmentation& segmentation = seen.segmentation;
   const double share =
       cv::countNonZero(segmentation.mask) / static_cast<double>(segmentation.mask.total());
   const bool usable = share <= options_.most_foreground;
   const cv::Mat mask = usable ? segmentation.mask : cv::Mat();
   return {std::make_shared<ColorEvidence>(
               usable ? ColorEvidence::State::kUsable : ColorEvidence::State::kOtherBackground,
-              image, std::move(segmentation), view.background, view.blind),
-          mask};
+              image, std::move(segmentation), seen.ground->background, view.blind),
+          mask, std::move(seen.memory)};
 }
 
 std::unique_ptr<TemplateBatch> ColorModality::do_sample(const ShapeModel& model,
@@ -158,7 +161,7 @@ void ColorModality::do_finish(std::int64_t seen) {
 void ColorModality::do_save(std::ostream& out) const {
   std::vector<color::Background> backgrounds;
   for (const View& view : views_) {
-    backgrounds.push_back(view.background ? *view.background : color::Background());
+    backgrounds.push_back(view.ground ? *view.ground->background : color::Background());
   }
   color::save_backgrounds(backgrounds, out);
 }
@@ -181,13 +184,32 @@ void ColorModality::do_load(std::istream& in) {
   use(std::move(backgrounds));
 }
 
-void ColorModality::use(std::vector<color::Background> backgrounds) {
+color::LivingOptions ColorModality::living() const {
+  color::LivingOptions options;
+  options.follow_light = options_.follow_light;
+  options.light.rate_per_s = options_.light_rate;
+  if (options_.settle_s) options.settling = color::SettlingOptions{.after_s = *options_.settle_s};
+  return options;
+}
+
+std::shared_ptr<const color::Ground> ColorModality::make_ground(
+    color::Background background) const {
   const color::CriterionOptions criterion_options{.darkness = options_.darkness,
                                                   .least_noise_px = options_.least_noise};
   const color::LabelFieldOptions field{.threshold = options_.threshold,
                                        .neighbourhood = options_.neighbourhood,
                                        .previous = options_.previous,
                                        .iterations = options_.iterations};
+  const color::Criterion criterion(background, criterion_options);
+  auto ground = std::make_shared<color::Ground>();
+  ground->segmenter = options_.device == Device::kOpencl
+                          ? color::make_opencl_segmenter(background, criterion, field)
+                          : color::make_cpu_segmenter(criterion, field);
+  ground->background = std::make_shared<color::Background>(std::move(background));
+  return ground;
+}
+
+void ColorModality::use(std::vector<color::Background> backgrounds) {
   if (options_.device == Device::kOpencl && !counter_) {
     counter_ = std::make_unique<const color::OpenclCounter>();
   }
@@ -195,12 +217,7 @@ void ColorModality::use(std::vector<color::Background> backgrounds) {
   parallel_for(views.size(), [&](std::size_t c) {
     View& view = views[c];
     view.blind = occluded(scene(), scene().cameras[c]);
-    if (backgrounds[c].empty()) return;
-    const color::Criterion criterion(backgrounds[c], criterion_options);
-    view.segmenter = options_.device == Device::kOpencl
-                         ? color::make_opencl_segmenter(backgrounds[c], criterion, field)
-                         : color::make_cpu_segmenter(criterion, field);
-    view.background = std::make_shared<color::Background>(std::move(backgrounds[c]));
+    if (!backgrounds[c].empty()) view.ground = make_ground(std::move(backgrounds[c]));
   });
   views_ = std::move(views);
 }
@@ -288,6 +305,26 @@ Declaration<ColorModality::Options> ColorModality::declare() {
       .at_least(1)
       .at_most(4096)
       .meaning("most frames kept in memory while learning; of more, an even selection");
+  p.value("follow_light", &Options::follow_light)
+      .meaning(
+          "whether every image is put into the background's light first: that of the whole view, "
+          "which may change at once, and shadows or lamps that change it here and there, slowly");
+  p.value("light_rate", &Options::light_rate)
+      .unit("1/s")
+      .at_least(0)
+      .at_most(50)
+      .meaning(
+          "with \"follow_light\": by how much the logarithm of a pixel's value may follow the "
+          "light at its place alone; larger values take slow people for shadows, 0 follows the "
+          "light of "
+          "the whole view only");
+  p.value("settle_s", &Options::settle_s)
+      .unit("s")
+      .at_least(1)
+      .at_most(3600)
+      .meaning(
+          "after which time foreground that keeps its place and colour is background: moved "
+          "furniture and the place that it left, but also who stands still as long; unset: never");
   p.choice("device", &Options::device, {"cpu", "opencl"})
       .meaning(
           "what segments and counts in silhouettes: one core with its vector instructions, or "

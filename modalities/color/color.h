@@ -7,6 +7,7 @@
 
 #include "modalities/color/background.h"
 #include "modalities/color/color_evidence.h"
+#include "modalities/color/living_background.h"
 #include "modalities/color/opencl_counter.h"
 #include "modalities/color/segmenter.h"
 #include "plaza/component/declaration.h"
@@ -17,8 +18,9 @@ namespace plaza {
 /// Foreground by colour, and how well silhouettes are filled with it.
 ///
 /// *prepare* segments an image by the extended collinearity criterion and a Markov random field
-/// (thesis 5.4.1; Griesser et al. 2005), against a background that was learned before the stream.
-/// *sample* turns silhouettes into spans with a ring around them.
+/// (thesis 5.4.1; Griesser et al. 2005), against a background that was learned before the stream
+/// and, where that is asked for, lives on during it (LivingBackground). *sample* turns silhouettes
+/// into spans with a ring around them.
 ///
 /// *match* compares occupancy, the share of foreground inside the silhouette less its share in a
 /// ring around it, with a gap for arms and for what a round model leaves out. Its model: where a
@@ -52,6 +54,9 @@ class ColorModality final : public Modality, private Learner {
     std::int64_t background_every = 5;
     std::optional<std::int64_t> background_first;
     int background_samples = 128;
+    bool follow_light = false;
+    double light_rate = 0.5;
+    std::optional<double> settle_s;
     Device device = Device::kCpu;
   };
   static Declaration<Options> declare();
@@ -61,15 +66,13 @@ class ColorModality final : public Modality, private Learner {
 
  private:
   struct View {
-    std::shared_ptr<const color::Background> background;  ///< null: unknown
-    std::unique_ptr<color::Segmenter> segmenter;
+    std::shared_ptr<const color::Ground> ground;               ///< as learned; null: unknown
     std::shared_ptr<const color::ColorEvidence::Blind> blind;  ///< behind static occluders
   };
 
   Diagnostics do_check() const override;
 
-  Prepared do_prepare(const cv::Mat& image, std::size_t camera,
-                      const cv::Mat& previous) const override;
+  Prepared do_prepare(const cv::Mat& image, std::size_t camera, const Past& past) const override;
   std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model, std::span<const Pose> poses,
                                            std::size_t camera) const override;
   void do_match(const Evidence& evidence, const TemplateBatch& templates,
@@ -85,6 +88,8 @@ class ColorModality final : public Modality, private Learner {
   void do_load(std::istream& in) override;
 
   void use(std::vector<color::Background> backgrounds);
+  color::LivingOptions living() const;
+  std::shared_ptr<const color::Ground> make_ground(color::Background background) const;
 
   Options options_;
   std::vector<color::BackgroundLearner> learners_;  ///< [camera]

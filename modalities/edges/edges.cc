@@ -212,7 +212,7 @@ const Edges::View& Edges::view_of(const EdgeEvidence& evidence) const {
 }
 
 Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
-                                     const cv::Mat& /*previous*/) const {
+                                     const Past& /*past*/) const {
   const View& view = views_[camera];
   std::shared_ptr<const ViewBackground> background;
   if (learner_ != nullptr) {

@@ -59,7 +59,7 @@ class OverlapModality final : public Modality {
   };
 
   Prepared do_prepare(const cv::Mat& image, std::size_t /*camera*/,
-                      const cv::Mat& /*previous*/) const override {
+                      const Past& /*past*/) const override {
     auto bright = std::make_shared<Bright>();
     bright->pixels = cv::Mat(image.size(), CV_8UC1);
     for (int y = 0; y < image.rows; ++y) {

@@ -98,7 +98,7 @@ class QuietModality : public Modality {
  protected:
   using Modality::Modality;
   Prepared do_prepare(const cv::Mat& /*image*/, std::size_t /*camera*/,
-                      const cv::Mat& /*previous*/) const override {
+                      const Past& /*past*/) const override {
     return {};
   }
   std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& /*model*/,

@@ -16,6 +16,23 @@
 
 namespace plaza::synthetic {
 
+/// All light becomes `factor` times what it was, evenly in its logarithm.
+struct LightChange {
+  double factor = 1;
+  double from_s = 1;    ///< after the clip's first frame
+  double seconds = 10;  ///< that it takes; 0: at once
+};
+
+/// See BandShadow. It crosses the area at a constant speed and comes again from the other side;
+/// which way is the seed's to decide.
+struct MovingShadow {
+  double share = 0;   ///< of the direct light that it takes; 0: there is none
+  double from_s = 0;  ///< when it appears, within two seconds
+  double speed_mps = 0.15;
+  double width_m = 1.2;
+  double edge_m = 0.2;
+};
+
 struct LaboratoryOptions {
   std::string scenario = "four-crossing";
   std::uint64_t seed = 1;
@@ -25,6 +42,9 @@ struct LaboratoryOptions {
   double shutter_s = 0.012;
   double calibration_error_px = 1.0;
   double illumination_drift = 0.06;
+  LightChange light;
+  MovingShadow shadow;
+  std::optional<double> moved_furniture_s;  ///< when furniture is shoved about; unset: never
   RenderOptions render;
   SensorOptions sensor;
 };
@@ -47,11 +67,24 @@ class Laboratory {
   std::vector<MovingBody> bodies(std::int64_t frame) const;
   /// Without lens and sensor: linear radiance of one camera (CV_32FC3).
   cv::Mat radiance(std::int64_t frame, std::size_t camera) const;
-  const StaticView& view(std::size_t camera) const;
+  /// The place as that frame has it.
+  const StaticView& view(std::size_t camera, std::int64_t frame = 0) const;
 
  private:
   struct Eye;
+  struct Look;
+  /// The place while no furniture moves.
+  struct Setting {
+    std::shared_ptr<const StageModel> model;
+    std::unique_ptr<StageScene> stage;
+    std::unique_ptr<Lights> lights;
+    std::unique_ptr<AmbientField> ambient;
+  };
   double seconds(std::int64_t frame) const;
+  std::size_t setting(std::int64_t frame) const;
+  const Look& look(std::size_t camera, std::int64_t frame) const;
+  void add_setting(const Stage& stage);
+  BandShadow shadow(double seconds) const;
   LightGains gains(std::int64_t frame) const;
   std::uint32_t key(std::int64_t frame, std::size_t camera) const;
 
@@ -59,15 +92,16 @@ class Laboratory {
   std::shared_ptr<const Scene> scene_;
   World world_;
   std::vector<std::shared_ptr<const BodyMesh>> meshes_;  // by cast member
-  std::shared_ptr<const StageModel> model_;
   std::shared_ptr<const RayDevice> device_;
-  std::unique_ptr<StageScene> stage_;
-  std::unique_ptr<Lights> lights_;
-  std::unique_ptr<AmbientField> ambient_;
+  std::vector<Setting> settings_;           // before furniture is moved, and after
   std::vector<std::unique_ptr<Eye>> eyes_;  // by camera
 };
 
 /// The stage that a scenario plays on in a scene; throws UserError for an unknown scenario.
 Stage stage_of(const std::string& scenario, const Scene& scene);
+
+/// What people are told of these options. Throws UserError for an unknown scenario, and where there
+/// is no furniture to be moved.
+WorldOptions world_options(const LaboratoryOptions& options, const Scene& scene);
 
 }  // namespace plaza::synthetic

@@ -17,7 +17,8 @@ Declaration<SyntheticSource::Options> SyntheticSource::declare() {
   p.value("scenario", &Options::scenario)
       .meaning(
           "what people do: two-targets, three-boxmotion, three-targets, four-interaction, "
-          "four-crossing, six-targets, twins (in a room), campus, terrace (in the open)")
+          "four-crossing, six-targets, twins, crowd, standing (in a room), campus, terrace (in the "
+          "open)")
       .source("thesis Table 3.1");
   p.value("seed", &Options::seed)
       .at_least(0)
@@ -57,6 +58,53 @@ Declaration<SyntheticSource::Options> SyntheticSource::declare() {
       .at_least(0)
       .at_most(0.5)
       .meaning("by which share lamps and sun slowly change, within half a minute");
+  p.value("light", &Options::light)
+      .at_least(0.05)
+      .at_most(20)
+      .meaning(
+          "what all light becomes in the clip, as a multiple of what it was; the cameras' exposure "
+          "stays, and what is too bright for them is white");
+  p.value("light_from_s", &Options::light_from_s)
+      .unit("s")
+      .at_least(0)
+      .meaning("when it begins to, after the first frame");
+  p.value("light_seconds", &Options::light_seconds)
+      .unit("s")
+      .at_least(0)
+      .meaning("how long that takes; 0: a switch");
+  p.value("shadow", &Options::shadow)
+      .at_least(0)
+      .at_most(1)
+      .meaning(
+          "share of the direct light that is taken by a band-shaped shadow, which moves slowly "
+          "over "
+          "the ground and whatever stands there, as that of a tree before a window; it isn't in "
+          "people-free images");
+  p.value("shadow_from_s", &Options::shadow_from_s)
+      .unit("s")
+      .at_least(0)
+      .meaning("when it appears, within two seconds");
+  p.value("shadow_mps", &Options::shadow_mps)
+      .unit("m/s")
+      .at_least(0)
+      .at_most(5)
+      .meaning("how fast it moves, across itself; when it has left the area, it comes again");
+  p.value("shadow_width_m", &Options::shadow_width_m)
+      .unit("m")
+      .above(0)
+      .at_most(50)
+      .meaning("how wide it is, from half to half");
+  p.value("shadow_edge_m", &Options::shadow_edge_m)
+      .unit("m")
+      .above(0)
+      .at_most(10)
+      .meaning("over which distance it fades at its edges");
+  p.value("moved_furniture_s", &Options::moved_furniture_s)
+      .unit("s")
+      .at_least(0)
+      .meaning(
+          "when a table and a plant of the room are shoved some way into the area, all at once; "
+          "people keep off both places all the time; unset: never");
   p.value("blur_px", &Options::blur_px)
       .unit("px")
       .at_least(0)
@@ -102,6 +150,14 @@ LaboratoryOptions SyntheticSource::laboratory_options() const {
   out.shutter_s = options_.shutter_ms * 1e-3;
   out.calibration_error_px = options_.calibration_error_px;
   out.illumination_drift = options_.illumination_drift;
+  out.light = {
+      .factor = options_.light, .from_s = options_.light_from_s, .seconds = options_.light_seconds};
+  out.shadow = {.share = options_.shadow,
+                .from_s = options_.shadow_from_s,
+                .speed_mps = options_.shadow_mps,
+                .width_m = options_.shadow_width_m,
+                .edge_m = options_.shadow_edge_m};
+  out.moved_furniture_s = options_.moved_furniture_s;
   out.render.shadows = options_.shadows;
   out.render.reflections = options_.reflections;
   out.sensor.blur_px = options_.blur_px;
@@ -119,13 +175,7 @@ const Laboratory& SyntheticSource::laboratory() {
 
 Diagnostics SyntheticSource::do_check() const {
   try {
-    WorldOptions world;
-    world.scenario = options_.scenario;
-    world.seed = static_cast<std::uint64_t>(options_.seed);
-    world.duration_s = static_cast<double>(options_.frames) / scene_->frame_rate_hz;
-    world.people = options_.people;
-    world.stage = stage_of(options_.scenario, *scene_);
-    World checked(world);
+    World checked(world_options(laboratory_options(), *scene_));
   } catch (const UserError& error) {
     Diagnostic fault;
     fault.pointer = "/scenario";

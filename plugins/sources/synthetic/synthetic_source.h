@@ -26,6 +26,15 @@ class SyntheticSource final : public Source {
     double shutter_ms = 12;
     double calibration_error_px = 1.0;
     double illumination_drift = 0.06;
+    double light = 1;
+    double light_from_s = 1;
+    double light_seconds = 10;
+    double shadow = 0;
+    double shadow_from_s = 0;
+    double shadow_mps = 0.15;
+    double shadow_width_m = 1.2;
+    double shadow_edge_m = 0.2;
+    std::optional<double> moved_furniture_s;
     double blur_px = 0.6;
     double vignetting = 0.25;
     double noise = 1.0;

@@ -199,12 +199,13 @@ class ModalityCheck {
     }
   }
 
-  /// What a node gives follows from its frame and, where memory is declared, from the mask of the
-  /// frame before; a missing image breaks the chain.
+  /// What a node gives follows from its frame and, where memory is declared, from what the frame
+  /// before left: its mask, whose chain a missing image breaks, and what else was handed on.
   void with_memory() {
     if (stage_.declaration().outputs.size() < 2) return;
     const auto node = stage_.make_as<Modality>();
-    std::vector<cv::Mat> before(stage_.scene().cameras.size());
+    std::vector<Modality::Past> before(stage_.scene().cameras.size());
+    const bool remembers = stage_.declaration().memory;
     for (std::int64_t frame = 0; frame < std::min<std::int64_t>(4, stage_.world().frame_count());
          ++frame) {
       const auto call = stage_.call(frame);
@@ -216,14 +217,21 @@ class ModalityCheck {
       }
       for (std::size_t c = 0; c < before.size(); ++c) {
         const cv::Mat& image = stage_.world().frames(frame).views[c];
-        cv::Mat expected;
+        Modality::Prepared expected;
+        if (!image.empty()) expected = modality_->prepare(image, c, before[c]);
+        findings_.require(same_mask(masks->views[c], expected.foreground),
+                          "the node's foreground is not that of prepare() with what the frame "
+                          "before left");
         if (!image.empty()) {
-          expected = modality_->prepare(image, c, before[c]).foreground;
+          findings_.require(
+              same_mask(modality_->prepare(image, c, before[c]).foreground, expected.foreground),
+              "prepare() gives another answer when it is given the same past again");
         }
-        findings_.require(same_mask(masks->views[c], expected),
-                          "the node's foreground is not that of prepare() with the mask of the "
-                          "frame before");
-        before[c] = stage_.declaration().memory ? masks->views[c] : cv::Mat();
+        findings_.require(remembers || expected.memory == nullptr,
+                          "prepare() hands something on, but no memory is declared");
+        if (!remembers) continue;
+        before[c].foreground = masks->views[c];
+        if (!image.empty()) before[c].memory = expected.memory;
       }
     }
   }

@@ -136,18 +136,20 @@ Eigen::Matrix2d MotionModel::position_covariance(const MotionState& state) const
 
 TemplateBatch::~TemplateBatch() = default;
 Modality::~Modality() = default;
+Modality::Memory::~Memory() = default;
 Modality::Prepared Modality::prepare(const cv::Mat& image, std::size_t camera,
-                                     const cv::Mat& previous) const {
+                                     const Past& past) const {
   const Camera& c = scene_->cameras.at(camera);
   if (image.cols != c.width() || image.rows != c.height() || image.type() != CV_8UC3) {
     throw UserError("image is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
                     ", the calibration of camera '" + c.name() + "' is for " +
                     std::to_string(c.width()) + "x" + std::to_string(c.height()) + " BGR");
   }
-  if (!previous.empty() && (previous.size() != image.size() || previous.type() != CV_8UC1)) {
+  const cv::Mat& before = past.foreground;
+  if (!before.empty() && (before.size() != image.size() || before.type() != CV_8UC1)) {
     throw std::invalid_argument("the previous foreground is no 8-bit mask of the image's size");
   }
-  Prepared prepared = do_prepare(image, camera, previous);
+  Prepared prepared = do_prepare(image, camera, past);
   if (!prepared.evidence) throw InternalError("prepare() returned no evidence");
   return prepared;
 }
@@ -196,14 +198,18 @@ void Modality::do_process(NodeIo& io) {
   auto masks = std::make_shared<ForegroundMask>();
   evidence->views.resize(frames.views.size());
   masks->views.resize(frames.views.size());
-  // after a jump in time the last mask says nothing of this frame
+  // after a jump in time what was before says nothing of this frame
   const bool recent =
-      in_order_ && previous_frame_ == io.frame() - 1 && previous_.size() == frames.views.size();
+      in_order_ && last_frame_ == io.frame() - 1 && past_.size() == frames.views.size();
+  std::vector<Past> left(frames.views.size());
   parallel_for(frames.views.size(), [&](std::size_t camera) {
-    if (frames.views[camera].empty()) return;
+    if (frames.views[camera].empty()) {
+      if (recent) left[camera].memory = past_[camera].memory;
+      return;
+    }
     try {
-      Prepared prepared =
-          prepare(frames.views[camera], camera, recent ? previous_[camera] : cv::Mat());
+      Prepared prepared = prepare(frames.views[camera], camera, recent ? past_[camera] : Past());
+      left[camera] = {prepared.foreground, std::move(prepared.memory)};
       evidence->views[camera] = std::move(prepared.evidence);
       masks->views[camera] = std::move(prepared.foreground);
     } catch (Error& error) {
@@ -212,8 +218,8 @@ void Modality::do_process(NodeIo& io) {
     }
   });
   if (in_order_) {  // else other threads are here at the same time
-    previous_ = masks->views;
-    previous_frame_ = io.frame();
+    past_ = std::move(left);
+    last_frame_ = io.frame();
   }
   io.out(0, std::move(evidence));
   if (io.output_count() > 1) io.out(1, std::move(masks));

@@ -157,7 +157,14 @@ const std::map<std::string, Maker>& table() {
       {"synthetic",
        [](const fs::path&) {
          const Trial t = trial("two people", {{"scenario", "two-targets"}, {"frames", 6}});
-         return std::vector<Trial>{t, follower(t)};
+         return std::vector<Trial>{t, follower(t),
+                                   trial("a changing place", {{"scenario", "two-targets"},
+                                                              {"frames", 6},
+                                                              {"light", 0.5},
+                                                              {"light_from_s", 0.1},
+                                                              {"light_seconds", 0.1},
+                                                              {"shadow", 0.5},
+                                                              {"moved_furniture_s", 0.1}})};
        }},
       {"video",
        [](const fs::path& files) {
@@ -181,7 +188,8 @@ const std::map<std::string, Maker>& table() {
       {"color",
        [](const fs::path&) {
          return std::vector<Trial>{Trial(), trial("median", {{"background", "median"}}),
-                                   trial("one frame", {{"background_first", 1}})};
+                                   trial("one frame", {{"background_first", 1}}),
+                                   trial("living", {{"follow_light", true}, {"settle_s", 1}})};
        }},
       // detectors
       {"boxes", [](const fs::path&) { return defaults(); }},

@@ -9,7 +9,7 @@ namespace plaza::contract {
 namespace {
 
 /// Mean brightness of the box under each pose.
-class Brightness final : public Modality {
+class Brightness : public Modality {
  public:
   using Options = Fault;
   static Declaration<Options> declare() {
@@ -34,12 +34,14 @@ class Brightness final : public Modality {
       return {grey};
     }
   };
+  struct Notes : Memory {
+    mutable int read = 0;
+  };
   struct Boxes : TemplateBatch {
     std::vector<cv::Rect> boxes;
     std::size_t size() const override { return boxes.size(); }
   };
-  Prepared do_prepare(const cv::Mat& image, std::size_t,
-                      const cv::Mat& /*previous*/) const override {
+  Prepared do_prepare(const cv::Mat& image, std::size_t, const Past& past) const override {
     auto grey = std::make_shared<Grey>();
     grey->fault = fault_;
     image.copyTo(grey->image);
@@ -48,6 +50,12 @@ class Brightness final : public Modality {
     cv::Mat mask(image.size(), CV_8UC1, cv::Scalar(255));
     if (fault_ == "remembers") mask.setTo(255 * (++calls_ % 2));
     if (fault_ == "mask") mask = cv::Mat(image.size(), CV_8UC1, cv::Scalar(7));
+    if (fault_ == "hands-on") return {grey, mask, std::make_shared<Memory>()};
+    if (fault_ == "rewrites") {
+      const auto* notes = dynamic_cast<const Notes*>(past.memory.get());
+      if (notes != nullptr) mask.setTo(255 * (++notes->read % 2));
+      return {grey, mask, std::make_shared<Notes>()};
+    }
     return {grey, mask};
   }
   std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model, std::span<const Pose> poses,
@@ -95,6 +103,24 @@ class Brightness final : public Modality {
   mutable std::atomic<int> calls_ = 0;
 };
 
+/// The same without saying that it remembers.
+class Forgetful final : public Brightness {
+ public:
+  static Declaration<Options> declare() {
+    Declaration<Options> d("forgetful", "Bright boxes");
+    d.input<FrameSet>("images").output<EvidenceSet>("grey values");
+    d.output<ForegroundMask>("everything").parameters(fault_parameter());
+    return d;
+  }
+  using Brightness::Brightness;
+};
+
+TEST(ModalityContractTest, OnlyWhoDeclaresMemoryHandsAnythingOn) {
+  expect_caught<Forgetful>({
+      {"hands-on", "prepare() hands something on, but no memory is declared"},
+  });
+}
+
 TEST(ModalityContractTest, EachBrokenPromiseIsCaught) {
   expect_caught<Brightness>({
       {"random", "prepare() gives another answer in several threads at once"},
@@ -107,7 +133,8 @@ TEST(ModalityContractTest, EachBrokenPromiseIsCaught) {
       {"explain-more", "a template is more likely after its evidence was explained"},
       {"explain-one", "explain() of two templates is not explain() of one after the other"},
       {"remembers",
-       "the node's foreground is not that of prepare() with the mask of the frame before"},
+       "the node's foreground is not that of prepare() with what the frame before left"},
+      {"rewrites", "prepare() gives another answer when it is given the same past again"},
       {"scribbles", "prepare() writes to the image"},
       {"picture-name", "picture 'Grey/values' has a name that makes no file name"},
       {"picture-caption", "picture 'grey' has no caption"},

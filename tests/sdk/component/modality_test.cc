@@ -1,4 +1,4 @@
-// What the base class of modalities promises: which previous mask reaches prepare(), and when.
+// What the base class of modalities promises: which past reaches prepare(), and when.
 #include "plaza/component/modality.h"
 
 #include <gtest/gtest.h>
@@ -11,19 +11,30 @@ namespace {
 
 const cv::Size kSize(8, 6);
 
-/// Gives masks whose first pixel is the number of the call, and notes what it was given.
+struct Count final : Modality::Memory {
+  explicit Count(int n) : calls(n) {}
+  int calls;
+};
+
+/// Gives masks whose first pixel is the number of the call, and hands on how many images it has
+/// seen; notes what it was given.
 class Recorder final : public Modality {
  public:
   explicit Recorder(const BuildContext& context) : Modality(context) {}
-  mutable std::vector<int> previous;  ///< first pixel of each call's previous mask, -1: none
+  mutable std::vector<int> previous;    ///< first pixel of each call's previous mask, -1: none
+  mutable std::vector<int> remembered;  ///< what each call was handed on, -1: nothing
 
  private:
   struct Nothing : Evidence {};
-  Prepared do_prepare(const cv::Mat& image, std::size_t, const cv::Mat& mask) const override {
+  Prepared do_prepare(const cv::Mat& image, std::size_t, const Past& past) const override {
+    const cv::Mat& mask = past.foreground;
+    const auto* before = dynamic_cast<const Count*>(past.memory.get());
+    remembered.push_back(before != nullptr ? before->calls : -1);
     previous.push_back(mask.empty() ? -1 : mask.at<uchar>(0, 0));
     cv::Mat next(image.size(), CV_8UC1, cv::Scalar(0));
     next.at<uchar>(0, 0) = static_cast<uchar>(previous.size());
-    return {std::make_shared<Nothing>(), next};
+    return {std::make_shared<Nothing>(), next,
+            std::make_shared<Count>(before != nullptr ? before->calls + 1 : 1)};
   }
   std::unique_ptr<TemplateBatch> do_sample(const ShapeModel&, std::span<const Pose>,
                                            std::size_t) const override {
@@ -64,6 +75,7 @@ TEST_F(ModalityTest, PassesTheMaskOfTheFrameBefore) {
   Recorder modality(context(true));
   for (std::int64_t frame = 10; frame < 13; ++frame) process(modality, frame);
   EXPECT_EQ(modality.previous, (std::vector<int>{-1, 1, 2}));
+  EXPECT_EQ(modality.remembered, (std::vector<int>{-1, 1, 2}));
 }
 
 TEST_F(ModalityTest, ForgetsAfterAJumpInTimeAndAfterAMissingImage) {
@@ -73,12 +85,15 @@ TEST_F(ModalityTest, ForgetsAfterAJumpInTimeAndAfterAMissingImage) {
   process(modality, 3, false);
   process(modality, 4);
   EXPECT_EQ(modality.previous, (std::vector<int>{-1, -1, -1}));
+  EXPECT_EQ(modality.remembered, (std::vector<int>{-1, -1, 1}))
+      << "an image that is missing ends the mask, but not what else is known";
 }
 
 TEST_F(ModalityTest, KeepsNothingWhenFramesMayComeInAnyOrder) {
   Recorder modality(context(false));
   for (std::int64_t frame = 0; frame < 3; ++frame) process(modality, frame);
   EXPECT_EQ(modality.previous, (std::vector<int>{-1, -1, -1}));
+  EXPECT_EQ(modality.remembered, (std::vector<int>{-1, -1, -1}));
 }
 
 TEST_F(ModalityTest, RefusesAPreviousMaskOfAnotherForm) {

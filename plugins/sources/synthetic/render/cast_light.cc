@@ -53,9 +53,11 @@ void ViewRenderer::aim_at_light(std::uint32_t mask, int x, int y, std::size_t pi
   std::array<float, kMostLights + 1> weight;
   weight[0] = (mask & 1u) != 0 ? shade.gains.ambient * luminance(view_.ambient[pixel]) : 0.0f;
   float total = weight[0];
+  const float left = shade.gains.shadow.left(view_.point[pixel]);
   for (std::size_t l = 0; l < view_.lights; ++l) {
     const bool wanted = lights_.soft() && (mask & (2u << l)) != 0;
-    weight[l + 1] = wanted ? shade.gains.direct[l] * view_.direct[pixel * view_.lights + l] : 0.0f;
+    weight[l + 1] =
+        wanted ? left * shade.gains.direct[l] * view_.direct[pixel * view_.lights + l] : 0.0f;
     total += weight[l + 1];
   }
   if (total <= 0) return;
@@ -114,9 +116,9 @@ int ViewRenderer::shoot(Shade& shade) const {
   return count;
 }
 
-void ViewRenderer::cast_sun(const PeopleScene& people, float gain, std::uint32_t key, int x, int y,
-                            std::size_t pixel, cv::Mat& image) const {
-  const float sun = gain * view_.direct[pixel * view_.lights];
+void ViewRenderer::cast_sun(const PeopleScene& people, const LightGains& gains, std::uint32_t key,
+                            int x, int y, std::size_t pixel, cv::Mat& image) const {
+  const float sun = gains.direct_at(0, view_.point[pixel]) * view_.direct[pixel * view_.lights];
   if (sun <= 0) return;
   const std::uint32_t random = hash32(static_cast<std::uint32_t>(pixel) ^ key);
   const Vec3 off = 2e-3f * view_.normal[pixel];
@@ -162,7 +164,7 @@ void ViewRenderer::cast_shadows(const PeopleScene& people, const LightGains& gai
       }
       // the sun's shadows are sharp: all samples of the pixel, and no smoothing
       if (!lights_.soft() && (mask & 2u) != 0) {
-        cast_sun(people, gains.direct[0], shade.key, x, y, pixel, canvas.image);
+        cast_sun(people, gains, shade.key, x, y, pixel, canvas.image);
       }
       if (is_scout(x, y)) aim_at_light(mask, x, y, pixel, shade);
     });

@@ -119,7 +119,7 @@ void ViewRenderer::shade(const PeopleScene& people, const LightGains& gains, con
   cover.irradiance = gains.ambient * ambient_.irradiance(at.place, at.normal);
   float total = weight[0] = luminance(cover.irradiance);
   for (std::size_t l = 0; l < view_.lights; ++l) {
-    weight[l + 1] = gains.direct[l] * lights_.irradiance(l, at.place, at.normal);
+    weight[l + 1] = gains.direct_at(l, at.place) * lights_.irradiance(l, at.place, at.normal);
     cover.irradiance += weight[l + 1] * lights_.colour(l);
     total += weight[l + 1];
   }

@@ -54,7 +54,8 @@ void ViewRenderer::mirror_people(const PeopleScene& people, const LightGains& ga
                                       queries[i].origin, queries[i].direction);
       Rgb light = gains.ambient * ambient_.irradiance(at.place, at.normal);
       for (std::size_t l = 0; l < view_.lights; ++l) {
-        light += gains.direct[l] * lights_.irradiance(l, at.place, at.normal) * lights_.colour(l);
+        light += gains.direct_at(l, at.place) * lights_.irradiance(l, at.place, at.normal) *
+                 lights_.colour(l);
       }
       change[pixel].head<3>() = view_.mirror[pixel] * at.surface.albedo.cwiseProduct(light) / kPi -
                                 gains.ambient * view_.mirrored[pixel];

@@ -49,8 +49,9 @@ cv::Mat ViewRenderer::empty(const LightGains& gains) const {
   auto* out = image.ptr<Vec3>();
   for (std::size_t pixel = 0; pixel < view_.pixels(); ++pixel) {
     Rgb light = gains.ambient * view_.ambient[pixel];
+    const float left = gains.shadow.left(view_.point[pixel]);
     for (std::size_t l = 0; l < view_.lights; ++l) {
-      light += gains.direct[l] * view_.direct[pixel * view_.lights + l] * lights_.colour(l);
+      light += left * gains.direct[l] * view_.direct[pixel * view_.lights + l] * lights_.colour(l);
     }
     out[pixel] =
         view_.albedo[pixel].cwiseProduct(light) / kPi + gains.ambient * view_.mirrored[pixel];

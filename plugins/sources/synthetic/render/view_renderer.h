@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "plugins/sources/synthetic/render/band_shadow.h"
 #include "plugins/sources/synthetic/render/static_view.h"
 
 namespace plaza::synthetic {
@@ -15,6 +16,10 @@ inline constexpr std::size_t kMostLights = 8;
 struct LightGains {
   std::vector<float> direct;  ///< of each light
   float ambient = 1;
+  BandShadow shadow;
+
+  /// On light number `light` where it meets `p`.
+  float direct_at(std::size_t light, const Vec3& p) const { return direct[light] * shadow.left(p); }
 };
 
 struct RenderOptions {
@@ -53,7 +58,7 @@ class ViewRenderer {
   void aim_at_light(std::uint32_t mask, int x, int y, std::size_t pixel, Shade& shade) const;
   /// Shoots the rays that were added. How many of them are kept off.
   int shoot(Shade& shade) const;
-  void cast_sun(const PeopleScene& people, float gain, std::uint32_t key, int x, int y,
+  void cast_sun(const PeopleScene& people, const LightGains& gains, std::uint32_t key, int x, int y,
                 std::size_t pixel, cv::Mat& image) const;
   /// Adds the ray of one sample of a pixel.
   void aim_at_people(std::size_t pixel, int x, int y, int sample, std::uint32_t random,

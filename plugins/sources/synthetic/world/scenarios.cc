@@ -30,6 +30,8 @@ const std::vector<ScenarioEntry>& scenario_table() {
     add("twins", "two pairs in the same clothing meet, stay in contact, and swap places or don't",
         true, 4, false, &make_twins);
     add("crowd", "any number of people who walk, stand and meet", true, 5, true, &make_crowd);
+    add("standing", "two of four people stand still for more than a minute", true, 4, false,
+        &make_standing);
     add("campus", "outdoors: few people who walk and run through", false, 4, false, &make_campus);
     add("terrace", "outdoors: up to nine people at close quarters", false, 9, false, &make_terrace);
     return entries;

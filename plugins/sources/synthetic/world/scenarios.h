@@ -28,6 +28,8 @@ std::unique_ptr<Scenario> make_crossing(int people);
 std::unique_ptr<Scenario> make_interaction(int people);
 std::unique_ptr<Scenario> make_six_targets(int people);
 std::unique_ptr<Scenario> make_crowd(int people);
+// lab_standing.cc
+std::unique_ptr<Scenario> make_standing(int people);
 // outdoors.cc
 std::unique_ptr<Scenario> make_campus(int people);
 std::unique_ptr<Scenario> make_terrace(int people);

@@ -1,6 +1,7 @@
 #include "plugins/sources/synthetic/world/stage.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plaza::synthetic {
 
@@ -45,6 +46,24 @@ Stage indoor_stage(const Rectangle& area) {
                              {{high.x() + 0.2, low.y() - 0.6}, {high.x() + 0.65, low.y() - 0.15}},
                              1.4});
   return stage;
+}
+
+Stage with_moved_furniture(const Stage& stage) {
+  Stage moved = stage;
+  const auto shove = [&](FurnitureKind kind, const auto& way) {
+    for (Furniture& thing : moved.furniture) {
+      if (thing.kind != kind) continue;
+      const Vector2d by = way(stage.area.center() - thing.footprint.center());
+      thing.footprint = {thing.footprint.low + by, thing.footprint.high + by};
+      return;
+    }
+  };
+  // a table stands along a wall and comes straight away from it, a plant stands in a corner
+  shove(FurnitureKind::kTable,
+        [](const Vector2d& inwards) { return Vector2d(0, std::copysign(0.6, inwards.y())); });
+  shove(FurnitureKind::kPlant,
+        [](const Vector2d& inwards) { return Vector2d(1.1 * inwards.normalized()); });
+  return moved;
 }
 
 Stage outdoor_stage(const Rectangle& area) {

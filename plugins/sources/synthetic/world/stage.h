@@ -59,6 +59,10 @@ struct Stage {
 /// and vanish to the side, out of sight of cameras in the room.
 Stage indoor_stage(const Rectangle& area);
 
+/// The stage after somebody has shoved furniture about: the first table 0.6 m and the first plant
+/// 1.1 m towards the area's middle, everything else where it was. Nothing changes where neither is.
+Stage with_moved_furniture(const Stage& stage);
+
 /// Open ground: people come from and go to places 7 m beyond the middle thirds of the area's
 /// sides, where no camera at the area's corners looks.
 Stage outdoor_stage(const Rectangle& area);

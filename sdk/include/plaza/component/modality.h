@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "plaza/component/build_context.h"
@@ -25,23 +26,47 @@ class PLAZA_API TemplateBatch {
 /// A visual modality is four operations over one view: prepare, sample, match, explain. All are
 /// const and thread-safe. Virtual calls are per image and per batch, never per point.
 ///
-/// A modality whose evidence depends on what was foreground in the frame before declares memory();
-/// its node then keeps every view's mask for one frame and passes it to prepare(). The operations
-/// themselves stay without state.
+/// A modality whose evidence depends on the frames before declares memory(): on what was foreground
+/// in the last one, and on whatever else it hands on (the light, things that have come to stay).
+/// Its node then keeps both for every view from one frame to the next and passes them to prepare().
+/// The operations themselves stay without state: prepare() is a pure function of the image and its
+/// Past.
 ///
 /// Node ports: in 0 Frames; out 0 Evidence, out 1 ForegroundMask where declared.
 class PLAZA_API Modality : public Node {
  public:
   ~Modality() override;
 
+  /// What a modality hands on from frame to frame of one view besides its mask. Derived by the
+  /// modality, never written to after it was handed on.
+  class PLAZA_API Memory {
+   public:
+    virtual ~Memory();
+  };
+  using MemoryPtr = std::shared_ptr<const Memory>;
+
+  /// What is left of the frames before, of one view.
+  struct Past {
+    Past() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): a mask is all the past that most modalities have
+    Past(cv::Mat foreground_before, MemoryPtr memory_before = nullptr)
+        : foreground(std::move(foreground_before)), memory(std::move(memory_before)) {}
+
+    /// The mask of the frame right before: 8-bit of the image's size, 0 or 255; empty where there
+    /// is none (the first frame, a missing image before, a modality without memory).
+    cv::Mat foreground;
+    /// What the last image of this view left; null at the beginning, after a jump in time, and in a
+    /// modality without memory. Frames whose image is missing leave it as it is.
+    MemoryPtr memory;
+  };
+
   struct Prepared {
     EvidencePtr evidence;  ///< never null
     cv::Mat foreground;  ///< 8-bit mask of the image's size, or empty where the modality gives none
+    MemoryPtr memory = nullptr;  ///< for this view's next image; null where nothing is to be kept
   };
-  /// Image -> evidence. `image` is 8-bit BGR of the camera's size; `previous` is the foreground
-  /// that this view had in the frame before, 8-bit of the same size, 0 or 255, empty where there is
-  /// none (the first frame, a missing image, a modality without memory).
-  Prepared prepare(const cv::Mat& image, std::size_t camera, const cv::Mat& previous = {}) const;
+  /// Image -> evidence. `image` is 8-bit BGR of the camera's size.
+  Prepared prepare(const cv::Mat& image, std::size_t camera, const Past& past = {}) const;
   /// Model at poses -> templates in view `camera`, one per pose, in the same order.
   std::unique_ptr<TemplateBatch> sample(const ShapeModel& model, std::span<const Pose> poses,
                                         std::size_t camera) const;
@@ -69,8 +94,7 @@ class PLAZA_API Modality : public Node {
       : scene_(context.scene), in_order_(context.in_order) {}
   const Scene& scene() const { return *scene_; }
 
-  virtual Prepared do_prepare(const cv::Mat& image, std::size_t camera,
-                              const cv::Mat& previous) const = 0;
+  virtual Prepared do_prepare(const cv::Mat& image, std::size_t camera, const Past& past) const = 0;
   virtual std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model,
                                                    std::span<const Pose> poses,
                                                    std::size_t camera) const = 0;
@@ -84,8 +108,8 @@ class PLAZA_API Modality : public Node {
   void do_process(NodeIo& io) final;
   std::shared_ptr<const Scene> scene_;
   bool in_order_;
-  std::vector<cv::Mat> previous_;  ///< the node's, by view: foreground of frame previous_frame_
-  std::int64_t previous_frame_ = -1;
+  std::vector<Past> past_;  ///< the node's, by view, as frame last_frame_ left it
+  std::int64_t last_frame_ = -1;
 };
 
 }  // namespace plaza

@@ -145,6 +145,9 @@ TEST(LaboratoryOptions, EachActsOnTheImage) {
   EXPECT_GT(effect([](auto& o) { o.sensor.bayer = false; }), 0.5);
   EXPECT_GT(effect([](auto& o) { o.calibration_error_px = 5; }), 0.5);
   EXPECT_GT(effect([](auto& o) { o.illumination_drift = 0.4; }), 0.5);
+  EXPECT_GT(effect([](auto& o) { o.light.factor = 0.5; }), 0.5);
+  EXPECT_GT(effect([](auto& o) { o.shadow.share = 0.5; }), 0.5);
+  EXPECT_GT(effect([](auto& o) { o.moved_furniture_s = 1; }), 0.5);
   EXPECT_GT(effect([](auto& o) { o.samples = 9; }), 0.01);
   EXPECT_GT(effect([](auto& o) { o.shutter_s = 0.08; }), 0.01);
 }

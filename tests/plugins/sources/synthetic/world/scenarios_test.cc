@@ -238,6 +238,29 @@ TEST(Scenario, CampusRunsAndTerraceIsCrowded) {
   EXPECT_LE(most_terrace, 9U);
 }
 
+TEST(Scenario, StandingTwoOfFourStandStillForMoreThanAMinute) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    WorldOptions options = options_of("standing", seed);
+    options.duration_s = 80;
+    const World world(options);
+    std::map<std::size_t, double> farthest_in_a_minute, farthest;
+    std::map<std::size_t, Eigen::Vector2d> start;
+    for (double t = 0.5; t < 80; t += 0.5) {
+      for (const PersonState& s : world.at(t)) {
+        const Eigen::Vector2d from = start.emplace(s.person, s.position_m).first->second;
+        const double way = (s.position_m - from).norm();
+        farthest[s.person] = std::max(farthest[s.person], way);
+        if (t < 62) farthest_in_a_minute[s.person] = std::max(farthest_in_a_minute[s.person], way);
+      }
+    }
+    int still = 0;
+    for (const auto& [person, way] : farthest_in_a_minute) still += way < 0.3 ? 1 : 0;
+    EXPECT_EQ(farthest_in_a_minute.size(), 4U);
+    EXPECT_EQ(still, 2) << "seed " << seed;
+    for (const auto& [person, way] : farthest) EXPECT_GT(way, 0.5) << "in the end all have moved";
+  }
+}
+
 TEST(Scenario, NobodyWalksThroughFurnitureOrWalls) {
   for (const ScenarioInfo& info : World::scenarios()) {
     double deepest = 0;
