@@ -65,8 +65,7 @@ class Edges final : public Modality {
 
   Diagnostics do_check() const override;
 
-  Prepared do_prepare(const cv::Mat& image, std::size_t camera,
-                      const Past& past) const override;
+  Prepared do_prepare(const cv::Mat& image, std::size_t camera, const Past& past) const override;
   std::unique_ptr<TemplateBatch> do_sample(const ShapeModel& model, std::span<const Pose> poses,
                                            std::size_t camera) const override;
   void do_match(const Evidence& evidence, const TemplateBatch& templates,
