@@ -44,14 +44,8 @@ double log_mean(std::span<const double> values) {
 
 }  // namespace
 
-double ViewTrust::of(const Silhouette& silhouette, Eigen::Vector2i image_size) const {
-  const Box& box = silhouette.box;
-  double trust = visible_share ? silhouette.inside_share : 1;
-  if (box.height < sharp_px) trust *= box.height / sharp_px;
-  const Eigen::Vector2d half = image_size.cast<double>() / 2;
-  const Eigen::Vector2d middle(box.left + box.width / 2, box.top + box.height / 2);
-  const double corners = std::min((middle - half).squaredNorm() / half.squaredNorm(), 1.0);
-  return trust * (1 - edge_loss * corners);
+double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) {
+  return smoothed / level.trust[cell];
 }
 
 GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy,

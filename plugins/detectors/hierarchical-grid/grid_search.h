@@ -8,6 +8,7 @@
 
 #include "plaza/component/modality.h"
 #include "plugins/detectors/hierarchical-grid/template_hierarchy.h"
+#include "plugins/detectors/hierarchical-grid/view_trust.h"
 
 namespace plaza {
 
@@ -20,18 +21,6 @@ struct Witness {
   double weight = 1;
 };
 
-/// How much a view counts that sees a place badly. Everything that is left out of an image, hidden,
-/// small or blurred makes a silhouette's log-likelihood, which is a mean over its pixels, less sure
-/// without making it smaller.
-struct ViewTrust {
-  bool visible_share = false;  ///< whether a view counts by the share of the silhouette it can see
-  double sharp_px = 0;         ///< a body less high than that counts proportionally less
-  double edge_loss = 0;        ///< share lost in the image's corners, growing with distance squared
-
-  /// In [0, 1], of a silhouette in an image of that size, pixels.
-  double of(const Silhouette& silhouette, Eigen::Vector2i image_size) const;
-};
-
 /// Likelihoods of one level's cells in one frame.
 struct LevelLikelihood {
   /// [cell]: sum over the views and modalities that can tell, views times their trust; inherited
@@ -42,6 +31,11 @@ struct LevelLikelihood {
   std::vector<char> evaluated;             ///< [cell]: 1 where the values are the cell's own
   std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
 };
+
+/// What a place is judged by: the smoothed log-likelihood over that of an empty place, per view
+/// that told, each counted by its trust. Sums grow with the views that look at a place whether they
+/// agree or not. NaN where none told.
+double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level);
 
 /// Cells of a level that are looked at in each view: [camera].
 using ViewCells = std::vector<std::vector<CellIndex>>;

@@ -48,150 +48,7 @@ std::vector<Witness> make_witnesses(const std::vector<InputReference>& inputs) {
   return witnesses;
 }
 
-ParameterSpec weight_field() {
-  struct Fields {
-    double weight = 1;
-  };
-  Parameters<Fields> p;
-  p.value("weight", &Fields::weight)
-      .above(0)
-      .meaning("factor of this modality's log-likelihood in the sum");
-  return p.specs().front();
-}
-
 }  // namespace
-
-Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
-  Parameters<Options> p;
-  p.input_list("modalities", std::string(EvidenceSet::kPort), {weight_field()})
-      .meaning("what is measured in images, in sum: \"from\" names a modality's node");
-  p.part("shape", "shape", "cylinder").meaning("what is looked for");
-  p.value("cells", &Options::cells)
-      .at_least(1)
-      .at_most(1024)
-      .meaning("cells of the finest level along each axis of the searched area")
-      .source("thesis Table 4.1");
-  p.value("levels", &Options::levels)
-      .at_least(1)
-      .at_most(8)
-      .meaning("levels of the grid; 1: every cell is evaluated")
-      .source("thesis 4.3.1");
-  p.value("branching", &Options::branching)
-      .at_least(2)
-      .at_most(8)
-      .meaning("into how many cells per axis a cell of one level is split on the next")
-      .source("thesis Figure 4.2");
-  p.value("margin_m", &Options::margin_m)
-      .unit("m")
-      .at_least(0)
-      .at_most(100)
-      .meaning(
-          "how far beyond the scene's area is searched; people found there are cut afterwards");
-  p.value("min_inside", &Options::min_inside)
-      .at_least(0)
-      .at_most(1)
-      .meaning("a view tells about a cell when so much of the silhouette's area is in its image");
-  p.value("occluders", &Options::occluders)
-      .meaning(
-          "whether silhouettes lack what the scene's occluders hide; else hidden parts count "
-          "as parts that nobody sees a person in");
-  p.value("visible_share", &Options::visible_share)
-      .meaning(
-          "whether a view counts by the share of the silhouette that is in its image and not "
-          "hidden; else all views that tell count alike");
-  p.value("sharp_px", &Options::sharp_px)
-      .unit("px")
-      .at_least(0)
-      .at_most(10000)
-      .meaning(
-          "views in which a body is less high than that count proportionally less; 0: far or "
-          "near is all the same");
-  p.value("edge_loss", &Options::edge_loss)
-      .at_least(0)
-      .at_most(1)
-      .meaning(
-          "how much less a view counts in its image's corners, where lenses are least sharp, "
-          "growing with the squared distance from the middle; 0: as much as anywhere");
-  p.value("refine_above", &Options::refine_above)
-      .at_least(0)
-      .meaning(
-          "cells are split where the likelihood exceeds the mean of their level so many "
-          "times; 0: everywhere")
-      .source("thesis 4.3.5");
-  p.value("spread", &Options::spread)
-      .at_least(0)
-      .at_most(100)
-      .meaning(
-          "so many cells around one that is split are split too, since a summit on the border "
-          "of what was evaluated is no summit; 0: the thesis's rule alone");
-  p.value("smoothing_m", &Options::smoothing_m)
-      .unit("m")
-      .at_least(0)
-      .at_most(10)
-      .meaning("standard deviation of the Gaussian on the ground")
-      .source("thesis (4.4), (4.5)");
-  p.value("separation_m", &Options::separation_m)
-      .unit("m")
-      .at_least(0)
-      .at_most(30)
-      .meaning(
-          "a maximum exceeds all cells so near to it, the eight around in any case; unset: the "
-          "smoothing's gate, 3 sigma")
-      .source("thesis 4.3.6: within the same neighbourhood");
-  p.choice("inference", &Options::inference, {"independent", "greedy"})
-      .meaning(
-          "independent: each local maximum by itself; greedy: one after the other, whoever the "
-          "evidence speaks for most first, by what the others don't account for");
-  p.value("rounds", &Options::rounds)
-      .at_least(0)
-      .at_most(100)
-      .meaning(
-          "greedy inference: how often everybody is placed and judged again by what all others "
-          "leave");
-  p.value("reach_m", &Options::reach_m)
-      .unit("m")
-      .at_least(0)
-      .at_most(10)
-      .meaning("greedy inference: how far somebody moves in a round");
-  p.value("occlusion_order", &Options::occlusion_order)
-      .meaning(
-          "greedy inference: whether somebody who is judged again loses in each view only what who "
-          "stands nearer to the camera accounts for, since nobody else can hide them; else what "
-          "anybody else does");
-  p.value("sizes", &Options::sizes)
-      .at_least(0.2)
-      .at_most(5)
-      .meaning(
-          "greedy inference: sizes of bodies that are tried beside the shape model's own, "
-          "relative to it; none: everybody has that");
-  p.value("size_sigma", &Options::size_sigma)
-      .above(0)
-      .at_most(10)
-      .meaning("standard deviation of people's sizes, relative to the shape model's own")
-      .source("5 % of the height, as among adults");
-  p.choice("maxima", &Options::maxima, {"local", "all"})
-      .meaning(
-          "local: an observation at each local maximum; all: at each evaluated cell, for "
-          "trackers that work on cells")
-      .source("thesis 4.3.6, 6.4");
-  p.value("min_score", &Options::min_score)
-      .meaning(
-          "lowest score: smoothed log-likelihood over that of an empty place, mean of the "
-          "views that tell");
-  p.value("most", &Options::most).at_least(1).meaning("so many of the best observations stay");
-  p.value("max_sigma_m", &Options::max_sigma_m)
-      .unit("m")
-      .above(0)
-      .meaning("largest standard deviation that is read from the likelihood's curvature");
-  p.value("probability", &Options::probability)
-      .meaning("calibration of scores: [score, probability] points, linear between, flat beyond");
-  Declaration<Options> d("hierarchical-grid",
-                         "Finds people by comparing silhouettes on a ground grid, coarse to fine.");
-  return d.source("thesis chapter 4")
-      .output<Observations>("people on the ground, with a box in every view that told")
-      .output<GroundLikelihood>("the finest level's log-likelihoods, before smoothing")
-      .parameters(std::move(p));
-}
 
 HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& context)
     : options_(options),
@@ -204,7 +61,7 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
       rivals_(cells_around(grid_.finest(), options.separation_m.value_or(3 * options.smoothing_m))),
       hierarchy_(grid_, *scene_, options.sizes) {
   for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
-  if (options.inference == Inference::kGreedy && options.maxima == Maxima::kAll) {
+  if (options.inference != Inference::kIndependent && options.maxima == Maxima::kAll) {
     refuse("/maxima",
            "\"all\" needs \"inference\": \"independent\": who is inferred together is "
            "no maximum of one surface");
@@ -228,16 +85,21 @@ void HierarchicalGrid::sample() {
       grid_, hierarchy_, *shape_, witnesses_, scene_->cameras,
       ViewTrust{options_.visible_share, options_.sharp_px, options_.edge_loss},
       options_.refine_above, options_.spread);
-  if (options_.inference == Inference::kGreedy) {
-    joint_ =
-        std::make_unique<JointSearch>(grid_, *search_, neighbours_, rivals_,
-                                      JointSearch::Options{.min_score = options_.min_score,
-                                                           .most = options_.most,
-                                                           .rounds = options_.rounds,
-                                                           .reach_m = options_.reach_m,
-                                                           .max_sigma_m = options_.max_sigma_m,
-                                                           .nearer_only = options_.occlusion_order,
-                                                           .size_sigma = options_.size_sigma});
+  if (options_.inference != Inference::kIndependent) {
+    const bool mean_field = options_.inference == Inference::kMeanField;
+    joint_ = std::make_unique<JointSearch>(
+        grid_, *search_, neighbours_, rivals_,
+        JointSearch::Options{
+            .min_score = options_.min_score,
+            .accept_score = mean_field ? options_.accept_score.value_or(options_.min_score / 2)
+                                       : options_.min_score,
+            .mean_field = mean_field ? &curve_ : nullptr,
+            .most = options_.most,
+            .rounds = options_.rounds,
+            .reach_m = options_.reach_m,
+            .max_sigma_m = options_.max_sigma_m,
+            .nearer_only = options_.occlusion_order,
+            .size_sigma = options_.size_sigma});
   }
 }
 

@@ -20,7 +20,7 @@ namespace plaza {
 /// What it learns before the stream is the template hierarchy, which needs no frames.
 class HierarchicalGrid final : public Detector, private Learner {
  public:
-  enum class Inference { kIndependent, kGreedy };
+  enum class Inference { kIndependent, kGreedy, kMeanField };
   enum class Maxima { kLocal, kAll };
   struct Options {
     int cells = 80;
@@ -37,6 +37,7 @@ class HierarchicalGrid final : public Detector, private Learner {
     double smoothing_m = 0.22;
     std::optional<double> separation_m;
     Inference inference = Inference::kIndependent;
+    std::optional<double> accept_score;
     int rounds = 3;
     double reach_m = 0.5;
     bool occlusion_order = false;

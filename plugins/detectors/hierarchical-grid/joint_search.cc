@@ -4,25 +4,17 @@
 #include <cmath>
 #include <optional>
 
+#include "plugins/detectors/hierarchical-grid/own_likelihood.h"
+
 namespace plaza {
 namespace {
 
-/// Nothing known of any cell.
-LevelLikelihood unknown_like(const LevelLikelihood& other) {
-  LevelLikelihood out;
-  out.joint.assign(other.joint.size(), kUnknown);
-  out.per_view = out.joint;
-  out.trust.assign(other.joint.size(), 0);
-  out.evaluated.assign(other.evaluated.size(), 0);
-  out.views.assign(other.views.size(), out.joint);
-  return out;
-}
+// mean field: presence beyond these is certain, and the most uncertain others are summed over
+constexpr double kCertain = 0.02;
+constexpr std::size_t kMostUncertain = 3;
+constexpr double kSettled = 0.01;  ///< a smaller change of presence changes nobody else
 
 }  // namespace
-
-double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) {
-  return smoothed / level.trust[cell];
-}
 
 /// One frame's people while they are inferred.
 class JointSearch::Scenario {
@@ -35,9 +27,7 @@ class JointSearch::Scenario {
         rest_(evidence),
         now_(first.levels.back()),
         surface_(smoothed(grid_, now_.joint, search.neighbours_)),
-        alone_(search.priors_.size(), unknown_like(now_)),
-        known_(search.priors_.size(), std::vector<char>(surface_.size(), 0)),
-        seen_alone_(first.levels.back()),
+        own_(grid_, *search.search_, search.neighbours_, search.priors_, evidence, first),
         moved_(now_.views.size(), std::vector<char>(surface_.size(), 0)) {}
 
   void accept() {
@@ -46,6 +36,7 @@ class JointSearch::Scenario {
       if (!best) break;
       disturb(*best);
       people_.emplace_back().person.body.cell = *best;
+      people_.back().presence = presence_at(score_of(*best, surface_[*best], now_));
       const PlacedBody body[] = {people_.back().person.body};
       rest_ = s_.search_->explain(rest_, body);
       refresh(s_.search_->touching(*best));
@@ -62,15 +53,17 @@ class JointSearch::Scenario {
       }
       people_[k].stale = false;
       const PlacedBody before = people_[k].person.body;
+      const double present = people_[k].presence;
       const bool stays = place(k, may_change);
-      if (may_change && !stays) {
+      if (s_.options_.mean_field == nullptr && may_change && !stays) {
         people_.erase(people_.begin() + static_cast<std::ptrdiff_t>(k));
         changed(before.cell);
         any = true;
         continue;
       }
       const PlacedBody after = people_[k].person.body;
-      if (after.cell != before.cell || after.size != before.size) {
+      const double shift = std::abs(people_[k].presence - present);
+      if (after.cell != before.cell || after.size != before.size || shift > kSettled) {
         changed(before.cell);
         changed(after.cell);
         people_[k].stale = false;
@@ -83,7 +76,7 @@ class JointSearch::Scenario {
 
   /// What is left when everybody has moved.
   void take_away_again() {
-    rest_ = s_.search_->explain(evidence_, bodies_of_others(people_.size()));
+    rest_ = s_.search_->explain(evidence_, likely_others(people_.size()));
     ViewCells cells(moved_.size());
     for (std::size_t camera = 0; camera < moved_.size(); ++camera) {
       for (std::size_t i = 0; i < moved_[camera].size(); ++i) {
@@ -107,7 +100,8 @@ class JointSearch::Scenario {
  private:
   struct Entry {
     FoundPerson person;
-    bool stale = true;  ///< somebody near has changed since this one was judged
+    double presence = 1;  ///< probability
+    bool stale = true;    ///< somebody near has changed since this one was judged
   };
 
   bool blocked(CellIndex cell, std::size_t by_others_than) const {
@@ -131,7 +125,7 @@ class JointSearch::Scenario {
       const auto cell = static_cast<CellIndex>(i);
       if (now_.evaluated[i] == 0 || !std::isfinite(surface_[i])) continue;
       if (best && !(surface_[i] > surface_[*best])) continue;
-      if (!(score_of(cell, surface_[i], now_) >= s_.options_.min_score)) continue;
+      if (!(score_of(cell, surface_[i], now_) >= s_.options_.accept_score)) continue;
       if (blocked(cell, people_.size())) continue;
       best = cell;
     }
@@ -148,7 +142,7 @@ class JointSearch::Scenario {
         if (looked[cell] != 0) continue;
         looked[cell] = 1;
         if (now_.evaluated[cell] == 0) never.push_back(cell);
-        for (const CellIndex other : s_.around(cell, s_.neighbours_)) todo[other] = 1;
+        for (const CellIndex other : cells_of(grid_, cell, s_.neighbours_)) todo[other] = 1;
       }
     }
     if (!never.empty()) {
@@ -181,45 +175,87 @@ class JointSearch::Scenario {
     }
   }
 
-  std::vector<PlacedBody> bodies_of_others(std::size_t k) const {
+  std::vector<PlacedBody> likely_others(std::size_t k) const {
     std::vector<PlacedBody> bodies;
     for (std::size_t i = 0; i < people_.size(); ++i) {
-      if (i != k) bodies.push_back(people_[i].person.body);
+      if (i != k && people_[i].presence >= 0.5) bodies.push_back(people_[i].person.body);
     }
     return bodies;
+  }
+
+  /// Unknown scores are those of people whom the others hide wholly: nothing speaks for them.
+  double presence_at(double score) const {
+    if (s_.options_.mean_field == nullptr) return 1;
+    return std::isfinite(score) ? (*s_.options_.mean_field)(score) : 0;
+  }
+
+  /// The score of a placed body over the presence of those uncertain others who touch it, each
+  /// present by their own probability; NaN where it is unknown whoever is present.
+  double expected_score(std::size_t k) {
+    const PlacedBody body = people_[k].person.body;
+    std::vector<PlacedBody> certain;
+    std::vector<std::size_t> uncertain;
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      const Entry& other = people_[i];
+      if (i == k || !s_.search_->touch(other.person.body.cell, body.cell)) continue;
+      if (other.presence > kCertain && other.presence < 1 - kCertain) {
+        uncertain.push_back(i);
+      } else if (other.presence >= 0.5) {
+        certain.push_back(other.person.body);
+      }
+    }
+    std::stable_sort(uncertain.begin(), uncertain.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(people_[a].presence - 0.5) < std::abs(people_[b].presence - 0.5);
+    });
+    while (uncertain.size() > kMostUncertain) {
+      const Entry& other = people_[uncertain.back()];
+      if (other.presence >= 0.5) certain.push_back(other.person.body);
+      uncertain.pop_back();
+    }
+    double sum = 0, weights = 0;
+    for (std::size_t state = 0; state < (std::size_t{1} << uncertain.size()); ++state) {
+      std::vector<PlacedBody> present = certain;
+      double weight = 1;
+      for (std::size_t i = 0; i < uncertain.size(); ++i) {
+        const Entry& other = people_[uncertain[i]];
+        const bool there = (state >> i & 1U) != 0;
+        weight *= there ? other.presence : 1 - other.presence;
+        if (there) present.push_back(other.person.body);
+      }
+      own_.use(s_.search_->explain(evidence_, present));
+      const double score = own_.score(body);
+      if (!std::isfinite(score)) continue;
+      sum += weight * score;
+      weights += weight;
+    }
+    return weights > 0 ? sum / weights : kUnknown;
   }
 
   /// Judges one by what all others leave; false when the best place doesn't score enough.
   bool place(std::size_t k, bool may_move) {
     FoundPerson& person = people_[k].person;
-    std::vector<PlacedBody> others = bodies_of_others(k);
+    std::vector<PlacedBody> others = likely_others(k);
     std::erase_if(others, [&](const PlacedBody& other) {
       return !s_.search_->touch(other.cell, person.body.cell);
     });
-    own_ = s_.search_->explain(
+    own_.use(s_.search_->explain(
         evidence_, others,
-        s_.options_.nearer_only ? std::optional(person.body.cell) : std::nullopt);
+        s_.options_.nearer_only ? std::optional(person.body.cell) : std::nullopt));
     if (may_move) {
       person.body.cell = climb(person.body, k);
       const PlacedBody before = person.body;
       for (std::size_t size = 0; size < s_.priors_.size(); ++size) {
-        if (value({before.cell, size}) > value(person.body)) person.body.size = size;
+        if (own_.value({before.cell, size}) > own_.value(person.body)) person.body.size = size;
       }
       if (person.body.size != before.size) person.body.cell = climb(person.body, k);
     }
-    const double most = value(person.body);
-    const LevelLikelihood& level = alone_[person.body.size];
-    person.score = score_of(person.body.cell, most, level);  // NaN where nothing can tell
-    const std::vector<CellIndex> ring = s_.around(person.body.cell, s_.ring_);
-    look_at(ring, person.body.size);
-    for (const CellIndex cell : ring) alone_surface_[cell] = value({cell, person.body.size});
-    person.peak = peak_at(grid_, alone_surface_, person.body.cell, s_.options_.max_sigma_m);
-    for (const CellIndex cell : ring) alone_surface_[cell] = kUnknown;
-    person.views.clear();
-    for (const std::vector<double>& view : level.views) {
-      person.views.push_back(view[person.body.cell]);
+    person.score = own_.score(person.body);
+    person.peak = own_.peak(person.body, s_.options_.max_sigma_m);
+    person.views = own_.views(person.body);
+    if (s_.options_.mean_field != nullptr) {
+      person.score = expected_score(k);
+      people_[k].presence = presence_at(person.score);
     }
-    forget();
     return person.score >= s_.options_.min_score;
   }
 
@@ -229,11 +265,11 @@ class JointSearch::Scenario {
     const double reach_m = s_.options_.reach_m;
     while (true) {
       PlacedBody best = here;
-      const std::vector<CellIndex> ring = s_.around(here.cell, s_.ring_);
-      look_at(ring, here.size);
+      const std::vector<CellIndex> ring = cells_of(grid_, here.cell, s_.ring_);
+      own_.look_at(ring, here.size);
       for (const CellIndex cell : ring) {
         const PlacedBody next{cell, here.size};
-        if (!(value(next) > value(best)) || blocked(cell, k)) continue;
+        if (!(own_.value(next) > own_.value(best)) || blocked(cell, k)) continue;
         if ((s_.position(cell) - s_.position(start.cell)).norm() > reach_m) continue;
         best = next;
       }
@@ -242,66 +278,15 @@ class JointSearch::Scenario {
     }
   }
 
-  /// Of a place, by one's own evidence, smoothed, with the prior of the size; NaN: unknown.
-  double value(const PlacedBody& body) {
-    const CellIndex cell[] = {body.cell};
-    look_at(cell, body.size);
-    return smoothed_at(grid_, alone_[body.size].joint, s_.neighbours_, body.cell) +
-           s_.priors_[body.size];
-  }
-
-  /// Judges what the values of these cells need and isn't known yet, all at once.
-  void look_at(std::span<const CellIndex> cells, std::size_t size) {
-    std::vector<CellIndex> missing;
-    for (const CellIndex cell : cells) {
-      for (const CellIndex other : s_.around(cell, s_.neighbours_)) {
-        if (known_[size][other] == 0) missing.push_back(other);
-        known_[size][other] = 1;
-      }
-    }
-    if (missing.empty()) return;
-    ViewCells unseen(evidence_.front().size());
-    for (std::size_t camera = 0; camera < unseen.size(); ++camera) {
-      const bool whole =
-          std::equal(own_.begin(), own_.end(), evidence_.begin(),
-                     [&](const auto& a, const auto& b) { return a[camera] == b[camera]; });
-      for (const CellIndex cell : missing) {
-        // where nobody else is in a view, the first search has seen all that there is
-        if (whole && size == 0 && seen_alone_.evaluated[cell] != 0) {
-          alone_[size].views[camera][cell] = seen_alone_.views[camera][cell];
-        } else {
-          unseen[camera].push_back(cell);
-        }
-      }
-    }
-    s_.search_->judge(own_, baselines_, size, unseen, alone_[size]);
-    s_.search_->join(size, missing, alone_[size]);
-    for (const CellIndex cell : missing) looked_at_.push_back({cell, size});
-  }
-
-  void forget() {
-    for (const PlacedBody& body : looked_at_) {
-      known_[body.size][body.cell] = 0;
-      alone_[body.size].joint[body.cell] = kUnknown;
-      for (std::vector<double>& view : alone_[body.size].views) view[body.cell] = kUnknown;
-    }
-    looked_at_.clear();
-  }
-
   const JointSearch& s_;
   const GroundGrid& grid_;
   const AllEvidence& evidence_;
   std::span<const double> baselines_;
-  AllEvidence rest_;                      ///< what nobody accounts for
-  LevelLikelihood now_;                   ///< by the rest
-  std::vector<double> surface_;           ///< now_, smoothed
-  AllEvidence own_;                       ///< of who is being placed: what the others leave
-  std::vector<LevelLikelihood> alone_;    ///< [size]: by own_, where known_
-  std::vector<std::vector<char>> known_;  ///< [size][cell]
-  std::vector<PlacedBody> looked_at_;     ///< where known_
-  std::vector<double> alone_surface_ = alone_.front().joint;
+  AllEvidence rest_;             ///< what nobody accounts for
+  LevelLikelihood now_;          ///< by the rest
+  std::vector<double> surface_;  ///< now_, smoothed
+  OwnLikelihood own_;            ///< of who is being placed, by what the others leave
   std::vector<Entry> people_;
-  const LevelLikelihood& seen_alone_;     ///< by all of the evidence
   std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether a move has touched it
 };
 
@@ -322,19 +307,6 @@ JointSearch::JointSearch(const StateGrid& grid, const GridSearch& search,
 
 Eigen::Vector2d JointSearch::position(CellIndex cell) const {
   return grid_->position(grid_->levels() - 1, cell);
-}
-
-std::vector<CellIndex> JointSearch::around(CellIndex cell, std::span<const Neighbour> which) const {
-  const GroundGrid& grid = grid_->finest();
-  const int column = static_cast<int>(cell) % grid.columns;
-  const int row = static_cast<int>(cell) / grid.columns;
-  std::vector<CellIndex> cells;
-  for (const Neighbour& n : which) {
-    const int c = column + n.columns, r = row + n.rows;
-    if (c < 0 || r < 0 || c >= grid.columns || r >= grid.rows) continue;
-    cells.push_back(static_cast<CellIndex>(r * grid.columns + c));
-  }
-  return cells;
 }
 
 std::vector<FoundPerson> JointSearch::infer(const AllEvidence& evidence,

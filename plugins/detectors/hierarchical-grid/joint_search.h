@@ -3,15 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "plugins/detectors/common/probability_curve.h"
 #include "plugins/detectors/hierarchical-grid/grid_search.h"
 #include "plugins/detectors/hierarchical-grid/likelihood_surface.h"
 
 namespace plaza {
-
-/// What a place is judged by: the smoothed log-likelihood over that of an empty place, per view
-/// that told, each counted by its trust. Sums grow with the views that look at a place whether they
-/// agree or not. NaN where none told.
-double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level);
 
 /// Somebody in a cell of the finest level, judged by the evidence that nobody else accounts for.
 struct FoundPerson {
@@ -29,13 +25,20 @@ struct FoundPerson {
 /// by what all the others leave: moves to the best place within reach, or goes when that doesn't
 /// score enough any more; then others may be accepted again. So for some rounds, or until nothing
 /// changes.
+///
+/// In a mean field (as Fleuret et al., "Multicamera people tracking with a probabilistic occupancy
+/// map", 2008), whoever is accepted is present with a probability only, which is that of the score
+/// expected over the presence of all others, each by their own: so somebody wrongly accepted first
+/// doesn't take away for good what others account for better.
 class JointSearch {
  public:
   struct Options {
     double min_score = 0;
-    int most = 1;        ///< people
-    int rounds = 0;      ///< of judging again; 0: what is accepted stays
-    double reach_m = 0;  ///< how far somebody moves in a round
+    double accept_score = 0;  ///< of whom is considered at all; at most min_score
+    const ProbabilityCurve* mean_field = nullptr;  ///< of presence, by score; null: greedily
+    int most = 1;                                  ///< people
+    int rounds = 0;                                ///< of judging again; 0: what is accepted stays
+    double reach_m = 0;                            ///< how far somebody moves in a round
     double max_sigma_m = 1;
     bool nearer_only = false;  ///< whether only who is nearer to a camera hides somebody in it
     double size_sigma = 1;     ///< of a body's size relative to the model's own
@@ -53,7 +56,6 @@ class JointSearch {
   class Scenario;
 
   Eigen::Vector2d position(CellIndex cell) const;
-  std::vector<CellIndex> around(CellIndex cell, std::span<const Neighbour> which) const;
 
   const StateGrid* grid_;
   const GridSearch* search_;

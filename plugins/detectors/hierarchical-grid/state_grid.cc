@@ -75,4 +75,17 @@ std::vector<Neighbour> cells_around(const GroundGrid& grid, double radius_m) {
   return cells;
 }
 
+std::vector<CellIndex> cells_of(const GroundGrid& grid, CellIndex cell,
+                                std::span<const Neighbour> which) {
+  const int column = static_cast<int>(cell) % grid.columns;
+  const int row = static_cast<int>(cell) / grid.columns;
+  std::vector<CellIndex> cells;
+  for (const Neighbour& n : which) {
+    const int c = column + n.columns, r = row + n.rows;
+    if (c < 0 || r < 0 || c >= grid.columns || r >= grid.rows) continue;
+    cells.push_back(static_cast<CellIndex>(r * grid.columns + c));
+  }
+  return cells;
+}
+
 }  // namespace plaza

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "plaza/data/observation.h"
@@ -46,5 +47,9 @@ std::vector<Neighbour> gaussian_neighbours(const GroundGrid& grid, double sigma_
 /// Cells at most `radius_m` away, and the eight around in any case, the cell itself included; the
 /// weights are of no use.
 std::vector<Neighbour> cells_around(const GroundGrid& grid, double radius_m);
+
+/// The cells that `which` names around a cell, as far as they are in the grid, in their order.
+std::vector<CellIndex> cells_of(const GroundGrid& grid, CellIndex cell,
+                                std::span<const Neighbour> which);
 
 }  // namespace plaza

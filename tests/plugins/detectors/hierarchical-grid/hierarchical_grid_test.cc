@@ -233,7 +233,7 @@ TEST(HierarchicalGrid, ContradictionsAreRefused) {
 }
 
 TEST(HierarchicalGrid, KeepsTheContract) {
-  for (const char* inference : {"independent", "greedy"}) {
+  for (const char* inference : {"independent", "greedy", "mean-field"}) {
     contract::Trial trial;
     trial.world = std::make_shared<contract::World>(3, 12);
     trial.finder = [](const std::string& name) -> std::optional<contract::Subject> {

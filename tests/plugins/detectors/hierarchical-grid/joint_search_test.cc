@@ -101,9 +101,60 @@ TEST(JointSearch, JudgingAgainMendsWhatWasAcceptedTooSoon) {
 }
 
 TEST(JointSearch, NobodyIsNobody) {
-  const Rig rig(small_scene(3), options_of(Inference::kGreedy));
-  EXPECT_TRUE(rig.run(rig.draw({}, 0.02, 1)).detected.observations.items.empty());
-  EXPECT_TRUE(rig.run(std::vector<cv::Mat>(3)).detected.observations.items.empty());
+  for (const Inference inference : {Inference::kGreedy, Inference::kMeanField}) {
+    const Rig rig(small_scene(3), options_of(inference));
+    EXPECT_TRUE(rig.run(rig.draw({}, 0.02, 1)).detected.observations.items.empty());
+    EXPECT_TRUE(rig.run(std::vector<cv::Mat>(3)).detected.observations.items.empty());
+  }
+}
+
+/// Of the rig's own scores: half of those with the threshold's score are somebody.
+HierarchicalGrid::Options mean_field_options() {
+  HierarchicalGrid::Options o = options_of(Inference::kMeanField);
+  o.probability = {{0.5 * o.min_score, 0.01}, {o.min_score, 0.5}, {1.5 * o.min_score, 0.99}};
+  return o;
+}
+
+TEST(JointSearch, InAMeanFieldACrowdIsFoundAsWell) {
+  const Errors independent = errors_in_crowds(options_of(Inference::kIndependent), 2);
+  const Errors field = errors_in_crowds(mean_field_options(), 2);
+  EXPECT_LT(2 * field.all(), independent.all())
+      << field.missed << " missed and " << field.invented << " invented instead of "
+      << independent.missed << " and " << independent.invented << ", of 60";
+}
+
+TEST(JointSearch, InAMeanFieldWhoStandsAloneHasTheirOwnScore) {
+  HierarchicalGrid::Options greedy = mean_field_options();
+  greedy.accept_score = greedy.min_score;  // no ghosts, who would claim a part
+  const Rig field(small_scene(4), greedy);
+  greedy.inference = Inference::kGreedy;
+  const Rig plain(small_scene(4), greedy);
+  const auto views = field.draw({{0.33, -1.21}}, 0.02, 3);
+  const auto one = field.run(views).detected.observations.items;
+  const auto same = plain.run(views).detected.observations.items;
+  ASSERT_EQ(one.size(), 1U);
+  ASSERT_EQ(same.size(), 1U);
+  EXPECT_NEAR(one[0].score, same[0].score, 1e-9);
+}
+
+TEST(JointSearch, InAMeanFieldUncertainNeighboursTakeAwayInPart) {
+  // two who hide each other in one view: the score of each is between those with the other present
+  // for certain and absent for certain
+  const std::vector<Eigen::Vector2d> two = {{0, 0.35}, {0, -0.35}};
+  const auto score_with = [&](double presence) {
+    HierarchicalGrid::Options o = mean_field_options();
+    o.probability = {{0, presence}};
+    const Rig rig(small_scene(2), o);
+    const auto found = rig.run(rig.draw(two, 0.03, 9)).detected.observations.items;
+    EXPECT_EQ(found.size(), 2U) << presence;
+    double sum = 0;
+    for (const Observation& o2 : found) sum += o2.score;
+    return sum;
+  };
+  const double present = score_with(0.995), half = score_with(0.6), rather = score_with(0.8);
+  EXPECT_NE(half, present);
+  EXPECT_TRUE(std::min(half, present) < rather && rather < std::max(half, present))
+      << half << ' ' << rather << ' ' << present;
 }
 
 TEST(JointSearch, OnePersonIsFoundOnceAndWhereTheOthersWouldBeFoundAlone) {

@@ -1,0 +1,17 @@
+#include "plugins/detectors/hierarchical-grid/view_trust.h"
+
+#include <algorithm>
+
+namespace plaza {
+
+double ViewTrust::of(const Silhouette& silhouette, Eigen::Vector2i image_size) const {
+  const Box& box = silhouette.box;
+  double trust = visible_share ? silhouette.inside_share : 1;
+  if (box.height < sharp_px) trust *= box.height / sharp_px;
+  const Eigen::Vector2d half = image_size.cast<double>() / 2;
+  const Eigen::Vector2d middle(box.left + box.width / 2, box.top + box.height / 2);
+  const double corners = std::min((middle - half).squaredNorm() / half.squaredNorm(), 1.0);
+  return trust * (1 - edge_loss * corners);
+}
+
+}  // namespace plaza

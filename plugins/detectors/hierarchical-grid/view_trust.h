@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "plaza/geometry/silhouette.h"
+
+namespace plaza {
+
+/// How much a view counts that sees a place badly. Everything that is left out of an image, hidden,
+/// small or blurred makes a silhouette's log-likelihood, which is a mean over its pixels, less sure
+/// without making it smaller.
+struct ViewTrust {
+  bool visible_share = false;  ///< whether a view counts by the share of the silhouette it can see
+  double sharp_px = 0;         ///< a body less high than that counts proportionally less
+  double edge_loss = 0;        ///< share lost in the image's corners, growing with distance squared
+
+  /// In [0, 1], of a silhouette in an image of that size, pixels.
+  double of(const Silhouette& silhouette, Eigen::Vector2i image_size) const;
+};
+
+}  // namespace plaza
