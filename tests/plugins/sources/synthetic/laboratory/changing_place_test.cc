@@ -11,10 +11,6 @@
 namespace plaza::synthetic {
 namespace {
 
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
-}
-
 LaboratoryOptions steady() {
   LaboratoryOptions options = small_options();
   options.illumination_drift = 0;

@@ -10,10 +10,6 @@
 namespace plaza::synthetic {
 namespace {
 
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
-}
-
 TEST(Laboratory, ASeedFixesEveryPixelInAnyOrderOfFrames) {
   const Laboratory first(small_options(), small_scene());
   const Laboratory second(small_options(), small_scene());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "plaza/geometry/scene.h"
@@ -43,6 +44,11 @@ inline LaboratoryOptions small_options() {
   options.seed = 3;
   options.duration_s = 4;
   return options;
+}
+
+/// Whether two images are alike to the last bit.
+inline bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
 
 }  // namespace plaza::synthetic
