@@ -20,9 +20,15 @@ void attempt(FrameState& state, const Work& work) {
   }
 }
 
-void end_with(LoopEnd& end, const FrameState& state) {
+/// After the frame that failed, or with it.
+void leave(const FrameLoop& loop, FrameState& state) {
+  if (loop.rest) attempt(state, loop.rest);
+}
+
+void end_with(const FrameLoop& loop, LoopEnd& end, FrameState& state) {
   end.fault = state.fault;
   end.failed_node = state.failed_node;
+  leave(loop, state);
 }
 
 LoopEnd run_in_sequence(const FrameLoop& loop) {
@@ -41,7 +47,7 @@ LoopEnd run_in_sequence(const FrameLoop& loop) {
       loop.done(s);
     });
     if (state.fault) {
-      end_with(end, state);
+      end_with(loop, end, state);
       return end;
     }
     if (!more) return end;
@@ -119,11 +125,14 @@ class ParallelLoop {
   }
 
   void end(FrameState& state) {
-    if (end_.fault) return;
+    if (end_.fault) {
+      leave(loop_, state);
+      return;
+    }
     if (!state.fault) attempt(state, loop_.done);
     if (state.fault) {
       failing_ = true;
-      end_with(end_, state);
+      end_with(loop_, end_, state);
       return;
     }
     ++end_.frames;

@@ -36,6 +36,10 @@ struct FrameLoop {
   std::function<bool(FrameState&)> read;  ///< false: the end
   std::vector<Stage> stages;
   std::function<void(FrameState&)> done;  ///< only frames that passed all stages
+  /// May be empty. The frame that failed and those that were on their way behind it, in order: they
+  /// aren't done, but what ordered stages put into them may be about frames that are. What this
+  /// throws is lost, since one fault has been kept.
+  std::function<void(FrameState&)> rest;
 };
 
 struct LoopEnd {

@@ -53,6 +53,7 @@ void Recorder::add_tracks(BranchFiles& branch, const FrameState& state) {
   if (branch.tracks_slot < 0) return;
   const PayloadPtr& payload = state.slots[static_cast<std::size_t>(branch.tracks_slot)];
   if (payload) branch.tracks->add(dynamic_cast<const Tracks&>(*payload));
+  branch.tracks_end = state.frame + 1;
 }
 
 void Recorder::add_frame(const FrameState& state) {
@@ -75,6 +76,12 @@ void Recorder::flush(std::int64_t end_frame) {
   for (BranchFiles& branch : branches_) {
     if (branch.observations) branch.observations->flush();
     if (branch.tracks) write_tracks_so_far(branch.folder, *branch.tracks, end_frame, scene_);
+  }
+}
+
+void Recorder::add_rest(const FrameState& state) {
+  for (BranchFiles& branch : branches_) {
+    if (state.frame >= branch.tracks_end) add_tracks(branch, state);
   }
 }
 

@@ -23,6 +23,8 @@ class Recorder {
 
   /// Takes what a frame's slots hold; frames come in order.
   void add_frame(const FrameState& state);
+  /// Takes, of a frame that was not done, the tracks: what they say of earlier frames is final.
+  void add_rest(const FrameState& state);
   /// Takes the tracks that were emitted while flushing.
   void add_flushed(const FrameState& state);
   /// Gives every file its name. `end_frame`: one past the last frame that was done.
@@ -37,6 +39,7 @@ class Recorder {
     int tracks_slot = -1;
     int observations_slot = -1;
     std::unique_ptr<TrackStore> tracks;
+    std::int64_t tracks_end = 0;  ///< one past the last frame whose tracks were taken
     std::unique_ptr<ObservationsFile> observations;
   };
   void add_tracks(BranchFiles& branch, const FrameState& state);

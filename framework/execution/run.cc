@@ -166,6 +166,7 @@ class Run {
           {.ordered = group.memory, .work = [this, &group](FrameState& s) { process(group, s); }});
     }
     loop.done = [this](FrameState& state) { done(state); };
+    loop.rest = [this](FrameState& state) { output_.recorder().add_rest(state); };
 
     std::optional<std::int64_t> total = reader_.frame_count();
     if (options_.end_frame)

@@ -39,7 +39,7 @@ bool is_blank(const EdgeImage& image) {
 
 /// What a thread needs while it works on an image.
 struct Edges::Workshop {
-  explicit Workshop(std::shared_ptr<const PlaneLayout> layout)
+  explicit Workshop(const std::shared_ptr<const PlaneLayout>& layout)
       : transform(layout), taken(layout->size(), std::uint8_t{0}) {}
   EdgeImage image;
   FastTransform transform;

@@ -4,7 +4,7 @@
 
 namespace plaza {
 
-double ViewTrust::of(const Silhouette& silhouette, Eigen::Vector2i image_size) const {
+double ViewTrust::of(const Silhouette& silhouette, const Eigen::Vector2i& image_size) const {
   const Box& box = silhouette.box;
   double trust = visible_share ? silhouette.inside_share : 1;
   if (box.height < sharp_px) trust *= box.height / sharp_px;

@@ -15,7 +15,7 @@ struct ViewTrust {
   double edge_loss = 0;        ///< share lost in the image's corners, growing with distance squared
 
   /// In [0, 1], of a silhouette in an image of that size, pixels.
-  double of(const Silhouette& silhouette, Eigen::Vector2i image_size) const;
+  double of(const Silhouette& silhouette, const Eigen::Vector2i& image_size) const;
 };
 
 }  // namespace plaza

@@ -155,6 +155,27 @@ TEST_P(FrameLoopTest, AFaultWhileFinishingEnds) {
   EXPECT_LT(next, 1000);
 }
 
+TEST_P(FrameLoopTest, WhatWasOnItsWayBehindAFaultIsHandedOverInOrder) {
+  std::vector<std::int64_t> seen, rest;
+  FrameLoop loop;
+  loop.read = [this](FrameState& state) {
+    state.reset(next_++, 0, 1, 0);
+    return true;
+  };
+  loop.stages.push_back({.ordered = true, .work = [&](FrameState& s) { seen.push_back(s.frame); }});
+  loop.done = [](FrameState& s) {
+    if (s.frame == 20) throw std::runtime_error("full");
+  };
+  loop.rest = [&](FrameState& s) { rest.push_back(s.frame); };
+  tbb::task_arena arena(GetParam());
+  const LoopEnd end = arena.execute([&] { return run_frames(loop, GetParam()); });
+  EXPECT_TRUE(end.fault);
+  EXPECT_EQ(end.frames, 20);
+  // nothing that an ordered stage has seen is lost
+  EXPECT_EQ(rest, std::vector<std::int64_t>(seen.begin() + 20, seen.end()));
+  EXPECT_EQ(rest.front(), 20);
+}
+
 TEST_P(FrameLoopTest, AStopFinishesTheFramesInFlight) {
   read_hook_ = [](std::int64_t frame) {
     if (frame == 42) request_stop();
