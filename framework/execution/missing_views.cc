@@ -17,6 +17,7 @@ MissingViews::MissingViews(const Scene& scene) {
 
 void MissingViews::add(const FrameSet& frames) {
   ++frames_;
+  last_frame_ = frames.frame;
   for (std::size_t c = 0; c < std::min(views_.size(), frames.views.size()); ++c) {
     if (!frames.views[c].empty()) continue;
     View& view = views_[c];
@@ -50,8 +51,12 @@ std::vector<std::string> MissingViews::notes() const {
       note += std::to_string(last + 1);
     }
     if (view.gaps.size() > kMostGapsShown) note += ", ...";
-    notes.push_back(note + " (" + std::to_string(view.missing) + " of " + std::to_string(frames_) +
-                    ")");
+    note += " (" + std::to_string(view.missing) + " of " + std::to_string(frames_) + ")";
+    const auto [first, last] = view.gaps.back();
+    if (last == last_frame_ && last > first) {
+      note += "; its last one is that of frame " + std::to_string(first);
+    }
+    notes.push_back(std::move(note));
   }
   return notes;
 }

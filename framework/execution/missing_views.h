@@ -19,8 +19,8 @@ class MissingViews {
   void add(const FrameSet& frames);
 
   /// One line per camera that had no image in some frames, frames counted from 1: "camera 'view2':
-  /// no image in frames 3, 7-9 (4 of 20)". Nothing when no camera had any: then there are no images
-  /// by design.
+  /// no image in frames 3, 7-9 (4 of 20)"; of one that was lost for good, also when. Nothing when
+  /// no camera had any: then there are no images by design.
   std::vector<std::string> notes() const;
 
  private:
@@ -31,6 +31,7 @@ class MissingViews {
   };
   std::vector<View> views_;
   std::int64_t frames_ = 0;
+  std::int64_t last_frame_ = -1;
 };
 
 }  // namespace plaza

@@ -9,7 +9,7 @@
 namespace plaza::scores {
 
 void TruthLog::add(const NodeIo& io, std::size_t input) {
-  if (!io.has(input)) return;
+  if (!io.has(input) || io.time_ns() < from_ns_) return;
   auto truth = io.share<GroundTruth>(input);
   if (!truth->annotated) return;
   for (const TruePerson& person : truth->people) {

@@ -43,6 +43,7 @@ Declaration<GroundScores::Options> GroundScores::declare() {
       .above(0)
       .meaning(
           "further distances at which everything is scored, listed in the section's \"sweep\"");
+  add_from_s(p);
   Declaration<Options> d(
       "ground-scores",
       "Scores positions on the ground: observations before tracking, and final tracks");
@@ -57,7 +58,7 @@ Declaration<GroundScores::Options> GroundScores::declare() {
 }
 
 GroundScores::GroundScores(const Options& options, const BuildContext& /*context*/)
-    : options_(options) {}
+    : options_(options), truth_(options.from_s) {}
 
 void GroundScores::do_observe(const NodeIo& io) {
   truth_.add(io, kTruth);

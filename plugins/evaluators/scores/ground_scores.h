@@ -16,6 +16,7 @@ class GroundScores final : public Evaluator {
   struct Options {
     double distance_m = 0.5;
     std::vector<double> sweep = {0.25, 0.5, 0.75, 1.0};
+    double from_s = 0;
   };
   static Declaration<Options> declare();
   GroundScores(const Options& options, const BuildContext& context);

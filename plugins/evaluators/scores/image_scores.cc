@@ -15,11 +15,12 @@ Parameters<ImageScores::Options> ImageScores::parameters(const std::string& scor
       .at_most(1)
       .meaning("further overlaps at which " + scored + " scored, listed in the section's \"sweep\"")
       .source(source);
+  add_from_s(p);
   return p;
 }
 
 ImageScores::ImageScores(const Options& options, const BuildContext& context)
-    : options_(options), scene_(context.scene) {}
+    : options_(options), scene_(context.scene), truth_(options.from_s) {}
 
 void ImageScores::do_observe(const NodeIo& io) {
   truth_.add(io, kTruth);

@@ -19,6 +19,7 @@ class ImageScores : public Evaluator {
   struct Options {
     double overlap = 0.3;
     std::vector<double> sweep = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+    double from_s = 0;
   };
 
  protected:
@@ -26,7 +27,7 @@ class ImageScores : public Evaluator {
   static constexpr std::size_t kResults = 0;
   static constexpr std::size_t kTruth = 1;
 
-  /// Both parameters; `scored` is what is scored at the sweep's overlaps, `source` who swept.
+  /// All parameters; `scored` is what is scored at the sweep's overlaps, `source` who swept.
   static Parameters<Options> parameters(const std::string& scored, const std::string& source);
 
   ImageScores(const Options& options, const BuildContext& context);

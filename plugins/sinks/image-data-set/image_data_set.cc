@@ -1,5 +1,6 @@
 #include "plugins/sinks/image-data-set/image_data_set.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <istream>
 #include <nlohmann/json.hpp>
@@ -154,6 +155,7 @@ std::filesystem::path ImageDataSet::image_file(const char* kind, std::size_t cam
 
 void ImageDataSet::begin() {
   begun_ = true;
+  has_images_.assign(scene_->cameras.size(), 0);
   for (std::size_t c = 0; c < scene_->cameras.size(); ++c) {
     std::filesystem::create_directories(image_file(kImages, c, 1).parent_path());
     for (std::size_t i = 0; i < people_free_.size(); ++i) {
@@ -170,6 +172,7 @@ void ImageDataSet::do_write(const NodeIo& io) {
   const auto& frames = io.in<FrameSet>(0);
   parallel_for(frames.views.size(), [&](std::size_t c) {
     if (frames.views[c].empty()) return;
+    has_images_[c] = 1;
     write_file(image_file(kImages, c, io.frame() + 1), encoded(frames.views[c]));
   });
   if (const auto* truth = io.find<GroundTruth>(1); truth != nullptr && truth->annotated) {
@@ -240,10 +243,16 @@ void ImageDataSet::write_pipeline() const {
   images["name"] = "cameras";
   truth["use"] = "ground-truth";
   truth["name"] = "truth";
-  for (const Camera& camera : scene_->cameras) {
+  for (std::size_t c = 0; c < scene_->cameras.size(); ++c) {
+    const Camera& camera = scene_->cameras[c];
     const std::string numbered = camera.name() + "/{frame}" + extension();
-    images["pattern"][camera.name()] = std::string(kImages) + "/" + numbered;
-    if (!people_free_.empty()) {
+    if (has_images_[c] != 0) {
+      images["pattern"][camera.name()] = std::string(kImages) + "/" + numbered;
+    } else {
+      images["missing_cameras"].push_back(camera.name());
+    }
+    const auto of_camera = [c](const auto& views) { return !views[c].empty(); };
+    if (std::ranges::any_of(people_free_, of_camera)) {
       images["people_free"][camera.name()] = std::string(kPeopleFree) + "/" + numbered;
     }
     truth["files"][camera.name()] = "gt." + camera.name() + ".txt";

@@ -53,6 +53,7 @@ class ImageDataSet final : public Sink, public Learner {
   std::shared_ptr<const Scene> scene_;
   std::filesystem::path folder_;
   std::vector<std::vector<std::string>> people_free_;  // by image and camera; "": no view
+  std::vector<char> has_images_;                       // by camera
   std::vector<OutputFile> rows_;                       // by camera
   std::unique_ptr<OutputFile> ground_;
   std::int64_t frames_ = 0;

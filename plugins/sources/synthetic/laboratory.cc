@@ -1,5 +1,6 @@
 #include "plugins/sources/synthetic/laboratory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -88,8 +89,21 @@ WorldOptions world_options(const LaboratoryOptions& options, const Scene& scene)
   return out;
 }
 
+void check_names(const LostCameras& lost, const Scene& scene) {
+  std::string known;
+  for (const Camera& camera : scene.cameras) {
+    known += (known.empty() ? "'" : ", '") + camera.name() + "'";
+  }
+  for (const std::string& name : lost.names) {
+    const auto is_it = [&](const Camera& camera) { return camera.name() == name; };
+    if (std::ranges::any_of(scene.cameras, is_it)) continue;
+    throw UserError("the scene has no camera '" + name + "' that could be lost; it has " + known);
+  }
+}
+
 Laboratory::Laboratory(const LaboratoryOptions& options, std::shared_ptr<const Scene> scene)
     : options_(options), scene_(std::move(scene)), world_(world_options(options, *scene_)) {
+  check_names(options_.lost, *scene_);
   meshes_.resize(world_.cast().size());
   parallel_for(meshes_.size(), [&](std::size_t i) {
     const CastMember& member = world_.cast()[i];
@@ -126,6 +140,11 @@ std::size_t Laboratory::setting(std::int64_t frame) const {
 
 const Laboratory::Look& Laboratory::look(std::size_t camera, std::int64_t frame) const {
   return *eyes_.at(camera)->looks[setting(frame)];
+}
+
+bool Laboratory::lost(std::size_t camera, std::int64_t frame) const {
+  return seconds(frame) >= options_.lost.from_s &&
+         std::ranges::count(options_.lost.names, scene_->cameras.at(camera).name()) > 0;
 }
 
 const StaticView& Laboratory::view(std::size_t camera, std::int64_t frame) const {
@@ -236,6 +255,7 @@ std::vector<cv::Mat> Laboratory::images(std::int64_t frame) const {
   const LightGains light = gains(frame);
   std::vector<cv::Mat> out(eyes_.size());
   parallel_for(eyes_.size(), [&](std::size_t c) {
+    if (lost(c, frame)) return;
     cv::Mat radiance = look(c, frame).renderer.render(people, light, key(frame, c));
     out[c] = eyes_[c]->sensor.develop(radiance, key(frame, c));
   });

@@ -33,6 +33,12 @@ struct MovingShadow {
   double edge_m = 0.2;
 };
 
+/// Cameras that stop giving images: a cable is pulled, a machine goes down.
+struct LostCameras {
+  std::vector<std::string> names;  ///< of cameras of the scene
+  double from_s = 0;               ///< after the clip's first frame; before it they give all images
+};
+
 struct LaboratoryOptions {
   std::string scenario = "four-crossing";
   std::uint64_t seed = 1;
@@ -45,6 +51,7 @@ struct LaboratoryOptions {
   LightChange light;
   MovingShadow shadow;
   std::optional<double> moved_furniture_s;  ///< when furniture is shoved about; unset: never
+  LostCameras lost;
   RenderOptions render;
   SensorOptions sensor;
 };
@@ -53,12 +60,14 @@ struct LaboratoryOptions {
 /// a pure function of the options and that moment.
 class Laboratory {
  public:
-  /// Builds people and place and traces what stands still. Throws UserError as World does.
+  /// Builds people and place and traces what stands still. Throws UserError as World does, and
+  /// where a camera that shall be lost isn't one of the scene's.
   Laboratory(const LaboratoryOptions& options, std::shared_ptr<const Scene> scene);
   ~Laboratory();
 
   const World& world() const { return world_; }
-  /// 8-bit BGR images of all cameras, people included; `frame` may be negative: before the clip.
+  /// 8-bit BGR images of all cameras, people included, empty where the camera is lost; `frame` may
+  /// be negative: before the clip.
   std::vector<cv::Mat> images(std::int64_t frame) const;
   /// The same without anybody.
   std::vector<cv::Mat> empty_images(std::int64_t frame) const;
@@ -84,6 +93,7 @@ class Laboratory {
   std::size_t setting(std::int64_t frame) const;
   const Look& look(std::size_t camera, std::int64_t frame) const;
   void add_setting(const Stage& stage);
+  bool lost(std::size_t camera, std::int64_t frame) const;
   BandShadow shadow(double seconds) const;
   LightGains gains(std::int64_t frame) const;
   std::uint32_t key(std::int64_t frame, std::size_t camera) const;
@@ -99,6 +109,9 @@ class Laboratory {
 
 /// The stage that a scenario plays on in a scene; throws UserError for an unknown scenario.
 Stage stage_of(const std::string& scenario, const Scene& scene);
+
+/// Throws UserError when the scene has no camera of one of these names.
+void check_names(const LostCameras& lost, const Scene& scene);
 
 /// What people are told of these options. Throws UserError for an unknown scenario, and where there
 /// is no furniture to be moved.

@@ -105,6 +105,15 @@ Declaration<SyntheticSource::Options> SyntheticSource::declare() {
       .meaning(
           "when a table and a plant of the room are shoved some way into the area, all at once; "
           "people keep off both places all the time; unset: never");
+  p.value("lost_cameras", &Options::lost_cameras)
+      .meaning(
+          "cameras that stop giving images within the clip; their view is then empty, and the "
+          "truth "
+          "goes on telling what they would have seen");
+  p.value("lost_from_s", &Options::lost_from_s)
+      .unit("s")
+      .at_least(0)
+      .meaning("when they stop, after the first frame; 0: the clip has no image of them");
   p.value("blur_px", &Options::blur_px)
       .unit("px")
       .at_least(0)
@@ -128,7 +137,7 @@ Declaration<SyntheticSource::Options> SyntheticSource::declare() {
   return Declaration<Options>("synthetic",
                               "Renders people in a room or in the open, with known truth.")
       .source("thesis 3.2, Table 3.1")
-      .output<FrameSet>("images of all cameras")
+      .output<FrameSet>("images of all cameras but those that are lost")
       .output<GroundTruth>(
           "who is where in the scene's area: identity, position, heading, and in each view the "
           "box of the whole body and its visible share")
@@ -158,6 +167,7 @@ LaboratoryOptions SyntheticSource::laboratory_options() const {
                 .width_m = options_.shadow_width_m,
                 .edge_m = options_.shadow_edge_m};
   out.moved_furniture_s = options_.moved_furniture_s;
+  out.lost = {.names = options_.lost_cameras, .from_s = options_.lost_from_s};
   out.render.shadows = options_.shadows;
   out.render.reflections = options_.reflections;
   out.sensor.blur_px = options_.blur_px;
@@ -174,15 +184,20 @@ const Laboratory& SyntheticSource::laboratory() {
 }
 
 Diagnostics SyntheticSource::do_check() const {
-  try {
-    World checked(world_options(laboratory_options(), *scene_));
-  } catch (const UserError& error) {
-    Diagnostic fault;
-    fault.pointer = "/scenario";
-    fault.message = error.what();
-    return {fault};
-  }
-  return {};
+  Diagnostics faults;
+  const auto note = [&](const std::string& pointer, const auto& check) {
+    try {
+      check();
+    } catch (const UserError& error) {
+      Diagnostic& fault = faults.emplace_back();
+      fault.pointer = pointer;
+      fault.message = error.what();
+    }
+  };
+  const LaboratoryOptions checked = laboratory_options();
+  note("/scenario", [&] { World world(world_options(checked, *scene_)); });
+  note("/lost_cameras", [&] { check_names(checked.lost, *scene_); });
+  return faults;
 }
 
 SourceInfo SyntheticSource::do_open() {

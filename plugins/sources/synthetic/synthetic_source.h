@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "plaza/component/declaration.h"
 #include "plugins/sources/synthetic/laboratory.h"
@@ -35,6 +36,8 @@ class SyntheticSource final : public Source {
     double shadow_width_m = 1.2;
     double shadow_edge_m = 0.2;
     std::optional<double> moved_furniture_s;
+    std::vector<std::string> lost_cameras;
+    double lost_from_s = 0;
     double blur_px = 0.6;
     double vignetting = 0.25;
     double noise = 1.0;

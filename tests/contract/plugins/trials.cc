@@ -33,6 +33,11 @@ Values by_camera(const World& world, const std::function<std::string(std::size_t
   return out;
 }
 
+/// For evaluators that may leave out how a run begins.
+std::vector<Trial> from_the_start_and_later() {
+  return {Trial(), trial("half a second later", {{"from_s", 0.5}})};
+}
+
 /// MOTChallenge rows of the world's detections, one file per camera.
 Values detection_files(const World& world, const fs::path& folder) {
   return by_camera(world, [&](std::size_t camera) {
@@ -157,6 +162,7 @@ const std::map<std::string, Maker>& table() {
       {"synthetic",
        [](const fs::path&) {
          const Trial t = trial("two people", {{"scenario", "two-targets"}, {"frames", 6}});
+         Values lost = Values::array({World().scene()->cameras.back().name()});
          return std::vector<Trial>{t, follower(t),
                                    trial("a changing place", {{"scenario", "two-targets"},
                                                               {"frames", 6},
@@ -164,7 +170,11 @@ const std::map<std::string, Maker>& table() {
                                                               {"light_from_s", 0.1},
                                                               {"light_seconds", 0.1},
                                                               {"shadow", 0.5},
-                                                              {"moved_furniture_s", 0.1}})};
+                                                              {"moved_furniture_s", 0.1}}),
+                                   trial("a lost camera", {{"scenario", "two-targets"},
+                                                           {"frames", 6},
+                                                           {"lost_cameras", lost},
+                                                           {"lost_from_s", 0.1}})};
        }},
       {"video",
        [](const fs::path& files) {
@@ -251,9 +261,9 @@ const std::map<std::string, Maker>& table() {
                                    trial("at once", {{"confirm", 1}, {"coast_s", 0.0}})};
        }},
       // evaluators
-      {"detection-scores", [](const fs::path&) { return defaults(); }},
-      {"tracking-scores", [](const fs::path&) { return defaults(); }},
-      {"ground-scores", [](const fs::path&) { return defaults(); }},
+      {"detection-scores", [](const fs::path&) { return from_the_start_and_later(); }},
+      {"tracking-scores", [](const fs::path&) { return from_the_start_and_later(); }},
+      {"ground-scores", [](const fs::path&) { return from_the_start_and_later(); }},
       {"detection-errors",
        [](const fs::path&) {
          return std::vector<Trial>{

@@ -68,11 +68,12 @@ std::shared_ptr<Tracks> tracks(std::vector<TrackPoint> points) {
   return t;
 }
 
-/// Hands the node its inputs in the order of its declaration; null: not there.
+/// Hands the node its inputs, ten frames a second, in the order of its declaration; null: not
+/// there.
 void observe(Node& node, std::int64_t frame, std::vector<PayloadPtr> inputs, bool flush = false) {
   std::vector<int> slots;
   for (std::size_t i = 0; i < inputs.size(); ++i) slots.push_back(static_cast<int>(i));
-  NodeIo io(frame, 0, inputs.data(), slots, {});
+  NodeIo io(frame, frame * 100'000'000, inputs.data(), slots, {});
   flush ? node.flush(io) : node.process(io);
 }
 
@@ -144,6 +145,27 @@ TEST(GroundScoresTest, WithTracksAlone) {
   const auto ground = node.evaluate().at("ground");
   EXPECT_EQ(ground["MODA"], 1.0);
   EXPECT_EQ(ground["MODA_from"], "tracks");
+}
+
+TEST(ScoresTest, FramesBeforeTheTimeCountForNothing) {
+  const auto miss = std::make_shared<Observations>();
+  DetectionScores detection(ImageScores::Options{.overlap = 0.3, .sweep = {}, .from_s = 0.3},
+                            context());
+  TrackingScores tracking(ImageScores::Options{.overlap = 0.3, .sweep = {}, .from_s = 0.3},
+                          context());
+  GroundScores ground({.distance_m = 0.5, .sweep = {}, .from_s = 0.3}, context());
+  for (std::int64_t frame = 0; frame < 8; ++frame) {
+    const bool found = frame >= 4;  // missed in the frames 0 to 3, of which 3 counts
+    const auto seen = found ? observation_at(0) : miss;
+    const auto track = tracks(found ? std::vector{point(7, frame, 0)} : std::vector<TrackPoint>());
+    observe(detection, frame, {seen, truth_at(0)});
+    observe(tracking, frame, {track, truth_at(0)});
+    observe(ground, frame, {truth_at(0), seen, track});
+  }
+  EXPECT_DOUBLE_EQ(detection.evaluate().at("detection")["MODA"], 0.8);
+  EXPECT_DOUBLE_EQ(tracking.evaluate().at("tracking")["MOTA"], 0.8);
+  EXPECT_DOUBLE_EQ(ground.evaluate().at("ground")["MODA"], 0.8);
+  EXPECT_DOUBLE_EQ(ground.evaluate().at("ground")["MOTA"], 0.8);
 }
 
 TEST(ScoresTest, MetricsAreDeclaredOnce) {

@@ -41,7 +41,8 @@ TEST(MissingViews, NamesCameraAndFrames) {
   EXPECT_THAT(notes({"##.#####", "########"}),
               ElementsAre("camera 'a': no image in frame 3 (1 of 8)"));
   EXPECT_THAT(notes({".#..#...", "#######.", "########"}),
-              ElementsAre("camera 'a': no image in frames 1, 3-4, 6-8 (6 of 8)",
+              ElementsAre("camera 'a': no image in frames 1, 3-4, 6-8 (6 of 8); its last one is "
+                          "that of frame 5",
                           "camera 'b': no image in frame 8 (1 of 8)"));
 }
 

@@ -116,6 +116,32 @@ TEST_F(ImageDataSetTest, WhatIsReadBackIsWhatWasWritten) {
   }
 }
 
+TEST_F(ImageDataSetTest, ACameraWithoutImagesIsDeclaredMissing) {
+  const auto sink = make();
+  FrameSet frames = frame_of(0, 2);
+  frames.views[1].release();
+  sink->learner()->learn(frames);
+  sink->learner()->finish(1);
+  std::vector<PayloadPtr> slots = {std::make_shared<FrameSet>(frames)};
+  const std::vector<int> inputs = {0, -1};
+  NodeIo io(0, 0, slots.data(), inputs, {});
+  sink->process(io);
+  static_cast<Sink&>(*sink).finish(true);
+  const auto node = json_of("data-set.json")["nodes"][0];
+  EXPECT_EQ(node["missing_cameras"], nlohmann::json({"right"}));
+  sources::ImagesSource::Options images;
+  for (const auto& [camera, pattern] : node["pattern"].items()) {
+    images.pattern[camera] = data() / pattern.get<std::string>();
+  }
+  for (const auto& [camera, pattern] : node["people_free"].items()) {
+    images.people_free[camera] = data() / pattern.get<std::string>();
+  }
+  images.missing_cameras = node["missing_cameras"];
+  Driver<sources::ImagesSource> source(images, scene_);
+  EXPECT_TRUE(source->check().empty()) << "what was written can be read";
+  EXPECT_EQ(source->open().background_count, 1);
+}
+
 TEST_F(ImageDataSetTest, TheTruthIsReadBack) {
   const auto sink = make();
   write(*sink);

@@ -1,4 +1,5 @@
-// Light that changes, a shadow that moves, furniture that is shoved about.
+// Light that changes, a shadow that moves, furniture that is shoved about, cameras that are lost.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -105,6 +106,47 @@ TEST(ChangingPlace, OutdoorsThereIsNoFurnitureToMove) {
   options.scenario = "campus";
   options.moved_furniture_s = 2;
   EXPECT_THROW(Laboratory(options, small_scene()), UserError);
+}
+
+TEST(LostCameras, GiveNoImageFromTheirTimeOnAndChangeNothingElse) {
+  LaboratoryOptions options = small_options();
+  options.lost = {.names = {"b"}, .from_s = 1};
+  const Laboratory plain(small_options(), small_scene()), lab(options, small_scene());
+  for (const std::int64_t frame : {-30, 24, 25, 99}) {
+    const auto all = plain.images(frame), left = lab.images(frame);
+    EXPECT_TRUE(same(all[0], left[0])) << frame;
+    if (frame < 25) {
+      EXPECT_TRUE(same(all[1], left[1])) << frame;
+    } else {
+      EXPECT_TRUE(left[1].empty()) << frame;
+    }
+    const auto truth = plain.people(frame), told = lab.people(frame);
+    ASSERT_EQ(told.size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      EXPECT_EQ(told[i].views.size(), truth[i].views.size()) << "figures stay comparable";
+    }
+  }
+}
+
+TEST(LostCameras, FromTheFirstFrameOnWasOnlyThereBefore) {
+  LaboratoryOptions options = small_options();
+  options.lost = {.names = {"a", "b"}, .from_s = 0};
+  const Laboratory lab(options, small_scene());
+  for (const cv::Mat& view : lab.images(0)) EXPECT_TRUE(view.empty());
+  for (const cv::Mat& view : lab.images(-1)) EXPECT_FALSE(view.empty());
+  for (const cv::Mat& view : lab.empty_images(-25)) EXPECT_FALSE(view.empty());
+}
+
+TEST(LostCameras, MustBeTheScenes) {
+  LaboratoryOptions options = small_options();
+  options.lost.names = {"b", "c"};
+  try {
+    Laboratory lab(options, small_scene());
+    FAIL() << "'c' is no camera";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no camera 'c'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("it has 'a', 'b'"));
+  }
 }
 
 }  // namespace
