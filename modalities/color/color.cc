@@ -1,5 +1,7 @@
 #include "modalities/color/color.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -37,13 +39,23 @@ std::shared_ptr<const ColorEvidence::Blind> occluded(const Scene& scene, const C
   return blind;
 }
 
+/// log L = scale * (1 - occupancy)^2
+double scale_of(double occupancy_sigma) { return -0.5 / (occupancy_sigma * occupancy_sigma); }
+
 }  // namespace
 
 ColorModality::ColorModality(const Options& options, const BuildContext& context)
     : Modality(context),
       options_(options),
+      parts_(read_body_parts(options.parts)),
       learners_(context.scene->cameras.size(),
-                color::BackgroundLearner(static_cast<std::size_t>(options.background_samples))) {}
+                color::BackgroundLearner(static_cast<std::size_t>(options.background_samples))) {
+  if (!parts_.empty()) {
+    in_parts_.emplace(color::PartJudgement{.mixture = PartMixture(parts_),
+                                           .least_visible = options.least_visible,
+                                           .scale = scale_of(options.occupancy_sigma)});
+  }
+}
 
 Diagnostics ColorModality::do_check() const {
   return options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
@@ -62,6 +74,7 @@ Modality::Prepared ColorModality::do_prepare(const cv::Mat& image, std::size_t c
       color::segment_living(image, past, view.ground, 1 / scene().frame_rate_hz, living(),
                             [this](color::Background b) { return make_ground(std::move(b)); });
   color::Segmentation& segmentation = seen.segmentation;
+  if (view.scale) segmentation.mask = color::analysed(segmentation.mask, *view.scale, shapes());
   const double share =
       cv::countNonZero(segmentation.mask) / static_cast<double>(segmentation.mask.total());
   const bool usable = share <= options_.most_foreground;
@@ -76,9 +89,15 @@ std::unique_ptr<TemplateBatch> ColorModality::do_sample(const ShapeModel& model,
                                                         std::span<const Pose> poses,
                                                         std::size_t camera) const {
   const Camera& c = scene().cameras[camera];
-  auto batch = std::make_unique<color::SpanTemplates>(cv::Size(c.width(), c.height()));
+  auto batch = std::make_unique<color::SpanTemplates>(cv::Size(c.width(), c.height()),
+                                                      std::max<std::size_t>(parts_.size(), 1));
+  const color::RingShape ring{.gap = options_.gap, .width = options_.ring};
   for (const Pose& pose : poses) {
-    batch->add(model.silhouette(pose, c), {.gap = options_.gap, .width = options_.ring});
+    if (parts_.empty()) {
+      batch->add(model.silhouette(pose, c), ring);
+    } else {
+      batch->add(model.silhouette(pose, c), ring, BodyCuts(parts_, model.body(), pose, c));
+    }
   }
   return batch;
 }
@@ -88,7 +107,8 @@ void ColorModality::do_match(const Evidence& evidence, const TemplateBatch& temp
                              std::span<double> log_likelihood) const {
   const auto& seen = static_cast<const ColorEvidence&>(evidence);
   const auto& batch = static_cast<const color::SpanTemplates&>(templates);
-  const double scale = -0.5 / (options_.occupancy_sigma * options_.occupancy_sigma);
+  if (in_parts_) return match_parts(seen, batch, which, log_likelihood);
+  const double scale = scale_of(options_.occupancy_sigma);
   const auto value = [&](const std::optional<double>& occupancy) {
     return occupancy ? scale * (1 - *occupancy) * (1 - *occupancy)
                      : std::numeric_limits<double>::quiet_NaN();
@@ -105,6 +125,33 @@ void ColorModality::do_match(const Evidence& evidence, const TemplateBatch& temp
   }
   for (std::size_t i = 0; i < which.size(); ++i) {
     log_likelihood[i] = value(seen.occupancy(batch, which[i], options_.least_visible, memo));
+  }
+}
+
+void ColorModality::match_parts(const ColorEvidence& seen, const color::SpanTemplates& batch,
+                                std::span<const std::uint32_t> which,
+                                std::span<double> log_likelihood) const {
+  std::fill(log_likelihood.begin(), log_likelihood.end(), std::numeric_limits<double>::quiet_NaN());
+  if (seen.state() != ColorEvidence::State::kUsable) return;
+  ColorEvidence::CountMemo& memo = seen.counted(batch);
+  const std::size_t parts = batch.parts();
+  if (counter_ && which.size() >= opencl::kLeastTemplates && seen.countable_on_device()) {
+    std::vector<std::uint32_t> pieces;
+    for (const std::uint32_t body : which) {
+      for (std::size_t k = 0; k < parts; ++k) {
+        pieces.push_back(static_cast<std::uint32_t>(body * parts + k));
+      }
+    }
+    const std::vector<color::TemplateCounts> counts = seen.count(*counter_, batch, pieces);
+    for (std::size_t i = 0; i < pieces.size(); ++i) memo.keep(pieces[i], counts[i]);
+  }
+  std::array<color::TemplateCounts, kMostBodyParts> counts;
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    for (std::size_t k = 0; k < parts; ++k) {
+      counts[k] = seen.left(batch, which[i] * parts + k, memo);
+    }
+    const auto found = color::log_likelihood_in_parts(batch, which[i], counts, *in_parts_);
+    if (found) log_likelihood[i] = *found;
   }
 }
 
@@ -192,6 +239,12 @@ color::LivingOptions ColorModality::living() const {
   return options;
 }
 
+color::ShapeOptions ColorModality::shapes() const {
+  return {.least_height_m = options_.least_height_m,
+          .least_column_m = options_.least_column_m,
+          .most_hole = options_.most_hole};
+}
+
 std::shared_ptr<const color::Ground> ColorModality::make_ground(
     color::Background background) const {
   const color::CriterionOptions criterion_options{.darkness = options_.darkness,
@@ -217,125 +270,13 @@ void ColorModality::use(std::vector<color::Background> backgrounds) {
   parallel_for(views.size(), [&](std::size_t c) {
     View& view = views[c];
     view.blind = occluded(scene(), scene().cameras[c]);
+    if (shapes().any()) {
+      view.scale =
+          std::make_shared<const BodyScale>(scene().cameras[c], scene().area, scene().body);
+    }
     if (!backgrounds[c].empty()) view.ground = make_ground(std::move(backgrounds[c]));
   });
   views_ = std::move(views);
-}
-
-Declaration<ColorModality::Options> ColorModality::declare() {
-  const char* const griesser = "Griesser et al. 2005";
-  Parameters<Options> p;
-  p.value("darkness", &Options::darkness)
-      .unit("grey levels")
-      .at_least(0)
-      .at_most(2000)
-      .meaning(
-          "constant appended to the colours of a window: 0 is blind to dark clothes, large "
-          "values see shadows")
-      .source(griesser);
-  p.value("least_noise", &Options::least_noise)
-      .unit("grey levels")
-      .above(0)
-      .at_most(255)
-      .meaning("standard deviation of a pixel's channel that is assumed at least");
-  p.value("threshold", &Options::threshold)
-      .at_least(0)
-      .at_most(500)
-      .meaning(
-          "strength of change from which a pixel is foreground when half of its surroundings "
-          "are; noise alone gives 1 on the average")
-      .source(griesser);
-  p.value("neighbourhood", &Options::neighbourhood)
-      .at_least(0)
-      .at_most(50)
-      .meaning("how much each of 8 foreground neighbours lowers the threshold")
-      .source(griesser);
-  p.value("previous", &Options::previous)
-      .at_least(0)
-      .at_most(20)
-      .meaning(
-          "how much each foreground pixel of the 3 x 3 window in the previous frame's mask "
-          "lowers the threshold")
-      .source(griesser);
-  p.value("iterations", &Options::iterations)
-      .at_least(1)
-      .at_most(100)
-      .meaning("most rounds in which the labels are solved")
-      .source(griesser);
-  p.value("most_foreground", &Options::most_foreground)
-      .above(0)
-      .at_most(1)
-      .meaning(
-          "share of foreground above which a view's background is taken for invalid (light or "
-          "camera changed) and the view can't tell");
-  p.value("gap", &Options::gap)
-      .at_least(0)
-      .at_most(1)
-      .meaning("distance of the ring from the silhouette, as a share of the silhouette's height");
-  p.value("ring", &Options::ring)
-      .at_least(0)
-      .at_most(1)
-      .meaning(
-          "width of the ring around a silhouette, as a share of the silhouette's height; at "
-          "least one pixel");
-  p.value("occupancy_sigma", &Options::occupancy_sigma)
-      .above(0)
-      .at_most(10)
-      .meaning("standard deviation of a person's occupancy from 1");
-  p.value("least_visible", &Options::least_visible)
-      .at_least(0)
-      .at_most(1)
-      .meaning(
-          "share of a silhouette that must be in the image, unhidden and unexplained, for the "
-          "view to tell");
-  p.choice("background", &Options::background, {"people-free", "median"})
-      .meaning(
-          "frames that the background is learned from: all, as medians over time, or only "
-          "those that the source marks as free of people");
-  p.value("background_every", &Options::background_every)
-      .unit("frames")
-      .at_least(1)
-      .meaning("learn from every n-th of them");
-  p.value("background_first", &Options::background_first)
-      .unit("frames")
-      .at_least(1)
-      .meaning("learn only from frames before this one; not set: from the whole recording");
-  p.value("background_samples", &Options::background_samples)
-      .unit("frames")
-      .at_least(1)
-      .at_most(4096)
-      .meaning("most frames kept in memory while learning; of more, an even selection");
-  p.value("follow_light", &Options::follow_light)
-      .meaning(
-          "whether every image is put into the background's light first: that of the whole view, "
-          "which may change at once, and shadows or lamps that change it here and there, slowly");
-  p.value("light_rate", &Options::light_rate)
-      .unit("1/s")
-      .at_least(0)
-      .at_most(50)
-      .meaning(
-          "with \"follow_light\": by how much the logarithm of a pixel's value may follow the "
-          "light at its place alone; larger values take slow people for shadows, 0 follows the "
-          "light of "
-          "the whole view only");
-  p.value("settle_s", &Options::settle_s)
-      .unit("s")
-      .at_least(1)
-      .at_most(3600)
-      .meaning(
-          "after which time foreground that keeps its place and colour is background: moved "
-          "furniture and the place that it left, but also who stands still as long; unset: never");
-  p.choice("device", &Options::device, {"cpu", "opencl"})
-      .meaning(
-          "what segments and counts in silhouettes: one core with its vector instructions, or "
-          "OpenCV's OpenCL device; likelihoods of the same mask are equal bit by bit");
-  Declaration<Options> d("color", "Foreground by colour, and how it fills silhouettes.");
-  return d.source("thesis 5.4.1; Griesser et al. 2005")
-      .input<FrameSet>("images of all views")
-      .output<EvidenceSet>("foreground, counted along rows, with its Lab image")
-      .output<ForegroundMask>("foreground of all views; empty where the view can't tell")
-      .memory()
-      .parameters(std::move(p));
 }
 
 }  // namespace plaza

@@ -9,7 +9,10 @@
 #include "modalities/color/color_evidence.h"
 #include "modalities/color/living_background.h"
 #include "modalities/color/opencl_counter.h"
+#include "modalities/color/part_occupancy.h"
 #include "modalities/color/segmenter.h"
+#include "modalities/color/shape_analysis.h"
+#include "modalities/common/body_parts.h"
 #include "plaza/component/declaration.h"
 #include "plaza/component/learner.h"
 
@@ -32,6 +35,9 @@ namespace plaza {
 /// tell: background never learned or no longer valid, too small a part of the silhouette in the
 /// image, unhidden by static occluders and unexplained.
 ///
+/// With `parts`, any of which may be hidden on its own (thesis 7.2), the likelihood is that of
+/// PartMixture over the parts' occupancies.
+///
 /// *explain* takes the foreground inside a silhouette and its gap away and makes those pixels count
 /// nowhere: arms left behind would fill the slim rest of a silhouette beside the person.
 class ColorModality final : public Modality, private Learner {
@@ -50,6 +56,10 @@ class ColorModality final : public Modality, private Learner {
     double ring = 0.06;
     double occupancy_sigma = 0.25;
     double least_visible = 0.3;
+    std::vector<std::vector<double>> parts;
+    double least_height_m = 0;
+    double least_column_m = 0;
+    double most_hole = 0;
     Learning background = Learning::kPeopleFree;
     std::int64_t background_every = 5;
     std::optional<std::int64_t> background_first;
@@ -66,6 +76,7 @@ class ColorModality final : public Modality, private Learner {
 
  private:
   struct View {
+    std::shared_ptr<const BodyScale> scale;                    ///< null: shapes aren't judged
     std::shared_ptr<const color::Ground> ground;               ///< as learned; null: unknown
     std::shared_ptr<const color::ColorEvidence::Blind> blind;  ///< behind static occluders
   };
@@ -87,11 +98,16 @@ class ColorModality final : public Modality, private Learner {
   void do_save(std::ostream& out) const override;
   void do_load(std::istream& in) override;
 
+  void match_parts(const color::ColorEvidence& seen, const color::SpanTemplates& batch,
+                   std::span<const std::uint32_t> which, std::span<double> log_likelihood) const;
   void use(std::vector<color::Background> backgrounds);
   color::LivingOptions living() const;
+  color::ShapeOptions shapes() const;
   std::shared_ptr<const color::Ground> make_ground(color::Background background) const;
 
   Options options_;
+  std::vector<BodyPart> parts_;                     ///< none: bodies in one piece
+  std::optional<color::PartJudgement> in_parts_;    ///< where there are
   std::vector<color::BackgroundLearner> learners_;  ///< [camera]
   std::vector<View> views_;                         ///< [camera]; empty until learned or loaded
   std::unique_ptr<const color::OpenclCounter> counter_;  ///< null: the CPU counts

@@ -82,15 +82,26 @@ std::vector<Picture> ColorEvidence::pictures() const {
   return pictures;
 }
 
+TemplateCounts ColorEvidence::seen(const SpanTemplates& templates, std::size_t piece,
+                                   CountMemo& memo) const {
+  if (memo.knows(piece)) return memo.at(piece);
+  const TemplateCounts counts = color::count(templates, piece, *counts_, blind_->counts);
+  memo.keep(piece, counts);
+  return counts;
+}
+
+TemplateCounts ColorEvidence::left(const SpanTemplates& templates, std::size_t piece,
+                                   CountMemo& memo) const {
+  TemplateCounts counts = seen(templates, piece, memo);
+  take_away(templates, piece, explained_, counts);
+  return counts;
+}
+
 std::optional<double> ColorEvidence::occupancy(const SpanTemplates& templates, std::size_t index,
                                                double least_visible, CountMemo& memo) const {
   if (state_ != State::kUsable) return std::nullopt;
-  if (!memo.knows(index)) {
-    const TemplateCounts counts = color::count(templates, index, *counts_, blind_->counts);
-    memo.keep(index, counts);
-    return color::occupancy(templates, index, counts, explained_, least_visible);
-  }
-  return color::occupancy(templates, index, memo.at(index), explained_, least_visible);
+  return color::occupancy(templates, index, seen(templates, index, memo), explained_,
+                          least_visible);
 }
 
 std::vector<TemplateCounts> ColorEvidence::count(const OpenclCounter& device,
@@ -106,28 +117,35 @@ std::shared_ptr<const ColorEvidence> ColorEvidence::without(
     const SpanTemplates& templates, std::span<const std::uint32_t> which) const {
   Patches patches = explained_;
   for (const std::uint32_t index : which) {
-    if (!templates.at(index).near_box.empty()) {
+    if (!templates.near_box(index).empty()) {
       patches.push_back(patch_of(templates, index, patches));
     }
   }
   return std::shared_ptr<const ColorEvidence>(new ColorEvidence(*this, std::move(patches)));
 }
 
-ColorEvidence::PatchPtr ColorEvidence::patch_of(const SpanTemplates& templates, std::size_t index,
+ColorEvidence::PatchPtr ColorEvidence::patch_of(const SpanTemplates& templates, std::size_t body,
                                                 const Patches& before) const {
-  const SpanTemplate& t = templates.at(index);
+  const cv::Rect box = templates.near_box(body);
   const auto make = [&] {  // with the gap: arms are the person's too
-    return std::make_shared<const ExplainedPatch>(templates.runs(t.near, t.outer), t.near_box,
-                                                  segmentation_.mask, blind_->mask, before);
+    std::vector<BoundaryRun> runs;
+    for (std::size_t piece = body * templates.parts(); piece < (body + 1) * templates.parts();
+         ++piece) {
+      const SpanTemplate& t = templates.at(piece);
+      const std::span<const BoundaryRun> of_piece = templates.runs(t.near, t.outer);
+      runs.insert(runs.end(), of_piece.begin(), of_piece.end());
+    }
+    return std::make_shared<const ExplainedPatch>(runs, box, segmentation_.mask, blind_->mask,
+                                                  before);
   };
   const bool alone = std::none_of(before.begin(), before.end(), [&](const PatchPtr& patch) {
-    return !(patch->box() & t.near_box).empty();
+    return !(patch->box() & box).empty();
   });
   if (!alone) return make();
   Memo<PatchPtr>& memo = alone_->of(templates.serial(), templates.size());
-  if (memo.knows(index)) return memo.at(index);
+  if (memo.knows(body)) return memo.at(body);
   PatchPtr patch = make();
-  memo.keep(index, patch);
+  memo.keep(body, patch);
   return patch;
 }
 

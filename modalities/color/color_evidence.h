@@ -49,24 +49,26 @@ class ColorEvidence final : public Evidence {
   /// Whether counts of templates can come from a device: nothing is explained yet. (Afterwards a
   /// few templates are judged again, which is not worth what an upload per person costs.)
   bool countable_on_device() const { return state_ == State::kUsable && explained_.empty(); }
-  /// count() for templates which[i], by OpenCL; the foreground goes to the device once.
+  /// count() for pieces which[i], by OpenCL; the foreground goes to the device once.
   std::vector<TemplateCounts> count(const OpenclCounter& device, const SpanTemplates& templates,
                                     std::span<const std::uint32_t> which) const;
   using CountMemo = Memo<TemplateCounts>;
-  /// What was counted in these templates before anything was explained.
+  /// What was counted in these templates' pieces before anything was explained.
   CountMemo& counted(const SpanTemplates& templates) const {
-    return memos_->of(templates.serial(), templates.size());
+    return memos_->of(templates.serial(), templates.pieces());
   }
-  /// See plaza::color::occupancy(); nothing when the evidence isn't usable either. `memo` is
-  /// counted() of the templates.
+  /// Counts in a piece, of what isn't explained. The evidence must be usable.
+  TemplateCounts left(const SpanTemplates& templates, std::size_t piece, CountMemo& memo) const;
+  /// See plaza::color::occupancy(), of a piece; nothing when the evidence isn't usable either.
+  /// `memo` is counted() of the templates.
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                   double least_visible, CountMemo& memo) const;
   std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                   double least_visible) const {
     return occupancy(templates, index, least_visible, counted(templates));
   }
-  /// The evidence without the foreground inside templates and their gaps, whose pixels count
-  /// nowhere from then on. Copies no image.
+  /// The evidence without the foreground inside bodies and their gaps, whose pixels count nowhere
+  /// from then on. Copies no image.
   std::shared_ptr<const ColorEvidence> without(const SpanTemplates& templates,
                                                std::span<const std::uint32_t> which) const;
 
@@ -74,7 +76,9 @@ class ColorEvidence final : public Evidence {
   using Patches = std::vector<std::shared_ptr<const ExplainedPatch>>;
   using PatchPtr = std::shared_ptr<const ExplainedPatch>;
   ColorEvidence(const ColorEvidence& other, Patches explained);
-  PatchPtr patch_of(const SpanTemplates& templates, std::size_t index, const Patches& before) const;
+  PatchPtr patch_of(const SpanTemplates& templates, std::size_t body, const Patches& before) const;
+  /// Counts in a piece, whatever is explained.
+  TemplateCounts seen(const SpanTemplates& templates, std::size_t piece, CountMemo& memo) const;
 
   State state_;
   cv::Mat image_;

@@ -26,6 +26,19 @@ cv::Rect box_of(const std::vector<RowSpan>& spans) {
   return {left, spans.front().row, right - left, spans.back().row - spans.front().row + 1};
 }
 
+/// Silhouette and gap, and these with the ring.
+struct Surroundings {
+  std::vector<RowSpan> near, outer;
+};
+Surroundings surroundings_of(const Silhouette& silhouette, const RingShape& ring, cv::Size image) {
+  const auto pixels = [&](double share) {
+    return static_cast<int>(std::lround(share * silhouette.box.height));
+  };
+  const int gap = pixels(ring.gap);
+  return {dilated(silhouette.spans, gap, image),
+          dilated(silhouette.spans, gap + std::max(1, pixels(ring.width)), image)};
+}
+
 std::uint32_t count_in(std::span<const BoundaryRun> runs, const AreaCounts& counts) {
   const std::uint32_t* const at = counts.data();
   const std::size_t stride = counts.stride();
@@ -36,12 +49,23 @@ std::uint32_t count_in(std::span<const BoundaryRun> runs, const AreaCounts& coun
   return sum;
 }
 
+/// From the counts of one region, what explained people account for of it.
+void take_away_of(std::span<const BoundaryRun> runs, const cv::Rect& box,
+                  std::span<const std::shared_ptr<const ExplainedPatch>> explained, Counts& from) {
+  for (const auto& patch : explained) {
+    if ((patch->box() & box).empty()) continue;
+    const Counts away = patch->count(runs);
+    from.set -= away.set;
+    from.hidden += away.hidden;
+  }
+}
+
+}  // namespace
+
 bool tells(const SpanTemplate& shape, const Counts& inner, double least_visible) {
   const std::uint32_t inside = shape.inner_area - inner.hidden;
   return inside > 0 && inside >= least_visible * static_cast<double>(shape.full_area);
 }
-
-}  // namespace
 
 AreaCounts::AreaCounts(const cv::Mat& mask) {
   if (mask.cols > 65535 || mask.rows > 65535) {
@@ -130,29 +154,42 @@ std::uint32_t SpanTemplates::append(const std::vector<RowSpan>& spans) {
   return static_cast<std::uint32_t>(runs_.size());
 }
 
-void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
+void SpanTemplates::add_piece(const std::vector<RowSpan>& inner, const std::vector<RowSpan>& near,
+                              const std::vector<RowSpan>& outer, double inside_share) {
   SpanTemplate t;
   t.inner = static_cast<std::uint32_t>(runs_.size());
-  t.near = t.outer = append(silhouette.spans);
-  t.inner_area = area(silhouette.spans);
-  if (t.inner_area > 0) {
-    const auto pixels = [&](double share) {
-      return static_cast<int>(std::lround(share * silhouette.box.height));
-    };
-    const int gap = pixels(ring.gap);
-    const std::vector<RowSpan> near = dilated(silhouette.spans, gap, image_);
-    const std::vector<RowSpan> all =
-        dilated(silhouette.spans, gap + std::max(1, pixels(ring.width)), image_);
-    t.outer = append(near);
-    append(all);
-    t.near_area = area(near);
-    t.outer_area = area(all);
-    t.near_box = box_of(near);
-    t.outer_box = box_of(all);
-    t.full_area = static_cast<float>(t.inner_area / std::max(silhouette.inside_share, 1e-9));
-  }
-  t.end = static_cast<std::uint32_t>(runs_.size());
+  t.near = append(inner);
+  t.inner_area = area(inner);
+  t.outer = append(near);
+  t.end = append(outer);
+  t.near_area = area(near);
+  t.outer_area = area(outer);
+  t.near_box = box_of(near);
+  t.outer_box = box_of(outer);
+  t.full_area = static_cast<float>(t.inner_area / std::max(inside_share, 1e-9));
   templates_.push_back(t);
+}
+
+void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring) {
+  if (parts_ != 1) throw std::invalid_argument("a silhouette in one piece among parts");
+  const Surroundings s = surroundings_of(silhouette, ring, image_);
+  add_piece(silhouette.spans, s.near, s.outer, silhouette.inside_share);
+}
+
+void SpanTemplates::add(const Silhouette& silhouette, const RingShape& ring, const BodyCuts& cuts) {
+  if (cuts.parts() != parts_) throw std::invalid_argument("a body in another number of parts");
+  const Surroundings s = surroundings_of(silhouette, ring, image_);
+  const auto inner = cuts.split(silhouette.spans);
+  const auto near = cuts.split(s.near), outer = cuts.split(s.outer);
+  for (std::size_t k = 0; k < parts_; ++k) {
+    add_piece(inner[k], near[k], outer[k], silhouette.inside_share);
+  }
+}
+
+cv::Rect SpanTemplates::near_box(std::size_t body) const {
+  cv::Rect box = at(body * parts_).near_box;
+  for (std::size_t k = 1; k < parts_; ++k) box |= at(body * parts_ + k).near_box;
+  return box;
 }
 
 TemplateCounts count(const SpanTemplates& templates, std::size_t index,
@@ -176,23 +213,24 @@ std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts&
   return share - static_cast<double>(counts.outer.set - counts.near.set) / ring;
 }
 
+void take_away(const SpanTemplates& templates, std::size_t index,
+               std::span<const std::shared_ptr<const ExplainedPatch>> explained,
+               TemplateCounts& counts) {
+  const SpanTemplate& t = templates.at(index);
+  take_away_of(templates.runs(t.inner, t.near), t.outer_box, explained, counts.inner);
+  take_away_of(templates.runs(t.near, t.outer), t.outer_box, explained, counts.near);
+  take_away_of(templates.runs(t.outer, t.end), t.outer_box, explained, counts.outer);
+}
+
 std::optional<double> occupancy(const SpanTemplates& templates, std::size_t index,
                                 TemplateCounts counts,
                                 std::span<const std::shared_ptr<const ExplainedPatch>> explained,
                                 double least_visible) {
   const SpanTemplate& t = templates.at(index);
-  const auto take_away = [&](Counts& from, std::uint32_t begin, std::uint32_t end) {
-    for (const auto& patch : explained) {
-      if ((patch->box() & t.outer_box).empty()) continue;
-      const Counts away = patch->count(templates.runs(begin, end));
-      from.set -= away.set;
-      from.hidden += away.hidden;
-    }
-  };
-  take_away(counts.inner, t.inner, t.near);
+  take_away_of(templates.runs(t.inner, t.near), t.outer_box, explained, counts.inner);
   if (!tells(t, counts.inner, least_visible)) return std::nullopt;
-  take_away(counts.near, t.near, t.outer);
-  take_away(counts.outer, t.outer, t.end);
+  take_away_of(templates.runs(t.near, t.outer), t.outer_box, explained, counts.near);
+  take_away_of(templates.runs(t.outer, t.end), t.outer_box, explained, counts.outer);
   return occupancy(t, counts, least_visible);
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "modalities/common/body_parts.h"
 #include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
 #include "plaza/component/modality.h"
@@ -53,8 +54,8 @@ struct RingShape {
   double width = 0;  ///< of the ring; at least one pixel
 };
 
-/// One template: the boundary of the silhouette, then that of all that lies within the gap, then
-/// that of all that lies within the ring, each cut to the image.
+/// One template, or one of a body's parts: the boundary of the silhouette, then that of all that
+/// lies within the gap, then that of all that lies within the ring, each cut to the image.
 struct SpanTemplate {
   std::uint32_t inner = 0;       ///< first boundary run of the silhouette
   std::uint32_t near = 0;        ///< first of silhouette and gap
@@ -70,18 +71,28 @@ struct SpanTemplate {
 /// Templates of one view on an OpenCL device.
 struct DeviceRegions {
   cv::UMat runs;    ///< BoundaryRun
-  cv::UMat bounds;  ///< [4 * template + i] inner, near, outer, end
+  cv::UMat bounds;  ///< [4 * piece + i] inner, near, outer, end
 };
 
-/// Templates of one view, made for AreaCounts.
+/// Templates of one view, made for AreaCounts. Where bodies are cut into parts, each part is a
+/// template of its own: silhouette, gap and ring of the body fall into theirs without overlap, and
+/// what is called `piece` below is the body's number * parts() + that of the part from the ground
+/// upwards. Without parts, pieces are bodies.
 class SpanTemplates final : public TemplateBatch {
  public:
-  explicit SpanTemplates(cv::Size image) : image_(image) {}
+  explicit SpanTemplates(cv::Size image, std::size_t parts = 1) : image_(image), parts_(parts) {}
+  /// In one piece; only without parts.
   void add(const Silhouette& silhouette, const RingShape& ring);
+  /// Cut into as many as parts().
+  void add(const Silhouette& silhouette, const RingShape& ring, const BodyCuts& cuts);
 
-  std::size_t size() const override { return templates_.size(); }
+  std::size_t size() const override { return templates_.size() / parts_; }
+  std::size_t parts() const { return parts_; }
+  std::size_t pieces() const { return templates_.size(); }
   cv::Size image() const { return image_; }
-  const SpanTemplate& at(std::size_t i) const { return templates_.at(i); }
+  const SpanTemplate& at(std::size_t piece) const { return templates_.at(piece); }
+  /// Around the near boxes of all parts of a body.
+  cv::Rect near_box(std::size_t body) const;
   std::span<const BoundaryRun> runs(std::uint32_t begin, std::uint32_t end) const {
     return std::span(runs_).subspan(begin, end - begin);
   }
@@ -91,8 +102,11 @@ class SpanTemplates final : public TemplateBatch {
 
  private:
   std::uint32_t append(const std::vector<RowSpan>& spans);
+  void add_piece(const std::vector<RowSpan>& inner, const std::vector<RowSpan>& near,
+                 const std::vector<RowSpan>& outer, double inside_share);
 
   cv::Size image_;
+  std::size_t parts_;
   std::vector<SpanTemplate> templates_;
   std::vector<BoundaryRun> runs_;
   BatchSerial serial_;
@@ -120,9 +134,17 @@ struct TemplateCounts {
   Counts inner, near, outer;
 };
 
-/// Where nothing is explained.
+/// Where nothing is explained. Here and below, `index` is a piece's.
 TemplateCounts count(const SpanTemplates& templates, std::size_t index,
                      const AreaCounts& foreground, const AreaCounts& blind);
+
+/// What is left of them after some people were explained.
+void take_away(const SpanTemplates& templates, std::size_t index,
+               std::span<const std::shared_ptr<const ExplainedPatch>> explained,
+               TemplateCounts& counts);
+
+/// Whether at least `least_visible` of a silhouette is left to look at, and at least a pixel.
+bool tells(const SpanTemplate& shape, const Counts& inner, double least_visible);
 
 /// What follows from the counts of a template, see occupancy().
 std::optional<double> occupancy(const SpanTemplate& shape, const TemplateCounts& counts,

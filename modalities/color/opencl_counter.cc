@@ -36,7 +36,7 @@ static_assert(sizeof(TemplateCounts) == 6 * sizeof(std::uint32_t), "is read as s
 DeviceRegions upload_regions(const SpanTemplates& templates) {
   std::vector<std::uint32_t> bounds;
   std::uint32_t end = 0;
-  for (std::size_t i = 0; i < templates.size(); ++i) {
+  for (std::size_t i = 0; i < templates.pieces(); ++i) {
     const SpanTemplate& t = templates.at(i);
     bounds.insert(bounds.end(), {t.inner, t.near, t.outer, t.end});
     end = t.end;

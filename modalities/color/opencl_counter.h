@@ -18,7 +18,7 @@ class OpenclCounter {
   OpenclCounter();
 
   static cv::UMat upload(const AreaCounts& counts);
-  /// Of template which[i], where nothing was explained; `foreground` and `blind`, which may be
+  /// Of piece which[i], where nothing was explained; `foreground` and `blind`, which may be
   /// empty, are of upload(), `stride` is theirs. Templates go to the device once. Thread-safe.
   std::vector<TemplateCounts> count(const cv::UMat& foreground, const cv::UMat& blind,
                                     std::size_t stride, const SpanTemplates& templates,

@@ -46,110 +46,6 @@ struct Edges::Workshop {
   cv::Mat1b taken;  ///< pixels that are being explained; all 0 in between
 };
 
-Declaration<Edges::Options> Edges::declare() {
-  Parameters<Options> p;
-  p.choice("method", &Options::method, {"canny", "sobel"})
-      .meaning(
-          "what counts as an edge: Canny's thinned and connected ones, or every pixel with a "
-          "gradient above \"high_threshold\"")
-      .source("thesis 4.3.2");
-  p.value("low_threshold", &Options::low_threshold)
-      .above(0)
-      .meaning("gradient (3 x 3 Sobel, unscaled) above which Canny follows an edge");
-  p.value("high_threshold", &Options::high_threshold)
-      .above(0)
-      .meaning("gradient above which an edge begins; at least \"low_threshold\"");
-  p.value("blur_px", &Options::blur_px)
-      .unit("px")
-      .at_least(0)
-      .at_most(20)
-      .meaning("sigma of a Gaussian that smooths the image before; 0: none");
-  p.choice("background", &Options::background, {"people-free", "median", "none"})
-      .meaning(
-          "what the background's edges are learned from: the union of the edges of frames that "
-          "the source marks as people-free, the median of frames with people, or nothing, then "
-          "nothing is subtracted")
-      .source("people-free: thesis 4.3.2");
-  p.value("background_first", &Options::background_first)
-      .at_least(1)
-      .meaning("learn only from so many first frames; unset: from all");
-  p.value("background_every", &Options::background_every)
-      .at_least(1)
-      .meaning("learn from every n-th of them");
-  p.value("background_tolerance_px", &Options::background_tolerance_px)
-      .unit("px")
-      .at_least(0)
-      .at_most(50)
-      .meaning("how near an edge must be to one of the background to be taken for it")
-      .source("thesis 4.3.2: \"a few pixels\"");
-  p.value("background_sensitivity", &Options::background_sensitivity)
-      .above(0)
-      .at_most(1)
-      .meaning(
-          "factor on both thresholds for the median's edges, since edges near a threshold come "
-          "and go");
-  p.value("orientation_threshold", &Options::orientation_threshold)
-      .above(0)
-      .at_most(1)
-      .meaning(
-          "an edge near one of the background is removed when the cosine between their "
-          "gradients is above this (Th_s)")
-      .source("thesis (4.1)");
-  p.value("min_contour_px", &Options::min_contour_px)
-      .unit("px")
-      .at_least(1)
-      .meaning(
-          "least pixels of a connected piece of foreground edges; smaller ones are dropped before "
-          "linking, 1: none");
-  p.value("link_px", &Options::link_px)
-      .unit("px")
-      .at_least(0)
-      .meaning("by how many removed pixels a contour may grow at each end point; 0: no linking")
-      .source("thesis 4.3.2, Figure 4.5");
-  p.value("link_end_points", &Options::link_end_points)
-      .at_least(1)
-      .meaning("linking ends when fewer end points than this have moved in a round (Th_ep)")
-      .source("thesis 4.3.2");
-  p.value("directions", &Options::directions)
-      .at_least(1)
-      .at_most(180)
-      .meaning("number of directions of the distance transform, evenly over half a turn")
-      .source("thesis 4.3.3");
-  p.value("sigma_px", &Options::sigma_px)
-      .unit("px")
-      .above(0)
-      .at_most(80)
-      .meaning(
-          "standard deviation of an edge's distance from the contour (R); the validation gate "
-          "is three of it")
-      .source("thesis (4.3)");
-  p.value("min_visible", &Options::min_visible)
-      .at_least(0)
-      .at_most(1)
-      .meaning("least share of a silhouette inside the image; with less the view can't tell");
-  p.value("min_points", &Options::min_points)
-      .at_least(1)
-      .meaning("least number of contour points inside the image; with fewer the view can't tell");
-  p.choice("explains", &Options::explains, {"contour", "silhouette", "region"})
-      .meaning(
-          "what an accepted person accounts for: edges within the gate of its contour, along the "
-          "normals (contour), and those inside (silhouette), after which the rest is transformed "
-          "anew; or, much faster, no edge, but what other contours have inside the silhouette "
-          "and within the gate around it counts nowhere, neither for nor against them (region)");
-  p.choice("device", &Options::device, {"cpu", "opencl"})
-      .meaning(
-          "what compares silhouettes in numbers with an image: one core with its vector "
-          "instructions, or OpenCV's OpenCL device, with results equal bit by bit; few "
-          "silhouettes, "
-          "and those judged again after explain(), stay on the core");
-  return Declaration<Options>(
-             "edges", "Foreground edges against silhouettes, by an oriented distance transform.")
-      .source("thesis 4.3.2-4.3.5, (4.1)-(4.3), Algorithm 1")
-      .input<FrameSet>("images of all views")
-      .output<EvidenceSet>("foreground edges and their distance transform")
-      .parameters(std::move(p));
-}
-
 Edges::Edges(const Options& options, const BuildContext& context)
     : Modality(context),
       options_(options),
@@ -159,6 +55,8 @@ Edges::Edges(const Options& options, const BuildContext& context)
                     .blur_px = options.blur_px},
       segmentation_{.orientation_threshold = options.orientation_threshold,
                     .min_contour_px = options.min_contour_px,
+                    .least_piece_m = options.least_piece_m,
+                    .longest_line_m = options.longest_line_m,
                     .link_px = options.link_px,
                     .link_end_points = options.link_end_points},
       template_options_{.min_visible = options.min_visible,
@@ -187,6 +85,10 @@ Edges::Edges(const Options& options, const BuildContext& context)
                                                       make_directions(options.directions, gate_px));
     view.matcher = std::make_shared<const ContourMatcher>(view.layout, options.sigma_px, gate_px);
     view.blocks = Pool<EvidenceBlock>::make();
+    if (options.least_piece_m > 0 || options.longest_line_m > 0) {
+      view.scale =
+          std::make_shared<const BodyScale>(camera, context.scene->area, context.scene->body);
+    }
     views_.push_back(std::move(view));
     workshops_.push_back(Pool<Workshop>::make());
   }
@@ -227,7 +129,7 @@ Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
   block->labels.clear();
   const bool unknown = background != nullptr && !background->known;
   segment(workshop->image, unknown ? nullptr : background.get(), segmentation_, block->labels,
-          block->points);
+          block->points, view.scale.get());
   workshop->transform.run(block->points, block->planes);
   const bool blank = unknown || is_blank(workshop->image);
   return {std::make_shared<const EdgeEvidence>(view.layout, std::move(background), std::move(block),

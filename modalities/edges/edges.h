@@ -39,6 +39,8 @@ class Edges final : public Modality {
     double background_sensitivity = 0.5;
     double orientation_threshold = 0.9;
     int min_contour_px = 1;
+    double least_piece_m = 0;
+    double longest_line_m = 0;
     int link_px = 5;
     int link_end_points = 1;
     int directions = 12;
@@ -60,6 +62,7 @@ class Edges final : public Modality {
     std::shared_ptr<const PlaneLayout> layout;
     std::shared_ptr<const ContourMatcher> matcher;
     std::shared_ptr<Pool<EvidenceBlock>> blocks;
+    std::shared_ptr<const BodyScale> scale;  ///< null: shapes aren't judged
   };
   struct Workshop;
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "modalities/edges/edge_shapes.h"
+
 namespace plaza::edges {
 namespace {
 
@@ -97,8 +99,8 @@ void link(const SegmentationOptions& options, LabelImage& labels, std::vector<Ed
 }  // namespace
 
 void segment(const EdgeImage& image, const ViewBackground* background,
-             const SegmentationOptions& options, LabelImage& labels,
-             std::vector<EdgePoint>& points) {
+             const SegmentationOptions& options, LabelImage& labels, std::vector<EdgePoint>& points,
+             const BodyScale* scale) {
   points.clear();
   append_points(image.edges, points);
   std::size_t kept = 0;
@@ -114,6 +116,12 @@ void segment(const EdgeImage& image, const ViewBackground* background,
   }
   points.resize(kept);
   if (options.min_contour_px > 1) drop_specks(options.min_contour_px, labels, points);
+  if (scale != nullptr && options.longest_line_m > 0) {
+    drop_long_lines(image, *scale, options.longest_line_m, labels, points);
+  }
+  if (scale != nullptr && options.least_piece_m > 0) {
+    drop_short_pieces(*scale, options.least_piece_m, labels, points);
+  }
   if (options.link_px > 0) link(options, labels, points);
 }
 

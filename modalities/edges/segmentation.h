@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "modalities/common/body_scale.h"
 #include "modalities/edges/background.h"
 #include "modalities/edges/edge_image.h"
 #include "modalities/edges/fast_transform.h"
@@ -22,6 +23,8 @@ enum EdgeLabel : std::uint8_t {
 struct SegmentationOptions {
   double orientation_threshold = 0.9;  ///< Th_s of (4.1)
   int min_contour_px = 1;              ///< smaller pieces (8-neighbours) are dropped before linking
+  double least_piece_m = 0;            ///< with a BodyScale: see drop_short_pieces(); 0: none
+  double longest_line_m = 0;           ///< with a BodyScale: see drop_long_lines(); 0: none
   int link_px = 5;          ///< most pixels that a contour grows at an end; 0: no linking
   int link_end_points = 1;  ///< linking ends when fewer end points than this have moved
 };
@@ -43,12 +46,12 @@ class LabelImage {
 /// Labels every edge pixel and lists those of the foreground.
 ///
 /// Removed is what lies near an edge of the background and runs its way (4.1), and of the rest what
-/// is too small to be a contour; linking then lets
+/// is too small to be a contour, or by its shape of no person; linking then lets
 /// contours grow from their end points along removed edges (thesis 4.3.2, Figure 4.5): an end point
 /// takes one neighbour that is an edge of the image, which becomes the new end point unless it has
 /// met another contour. `labels` must be of the edges' size and clear; `points` is overwritten.
 void segment(const EdgeImage& image, const ViewBackground* background,
-             const SegmentationOptions& options, LabelImage& labels,
-             std::vector<EdgePoint>& points);
+             const SegmentationOptions& options, LabelImage& labels, std::vector<EdgePoint>& points,
+             const BodyScale* scale = nullptr);
 
 }  // namespace plaza::edges

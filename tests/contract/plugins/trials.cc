@@ -190,16 +190,24 @@ const std::map<std::string, Maker>& table() {
       {"box-parallelepiped", [](const fs::path&) { return defaults(); }},
       {"edges",
        [](const fs::path&) {
-         return std::vector<Trial>{Trial(), trial("median", {{"background", "median"}}),
-                                   trial("sobel", {{"method", "sobel"}, {"background", "none"}}),
-                                   trial("silhouette", {{"explains", "silhouette"}}),
-                                   trial("region", {{"explains", "region"}})};
+         return std::vector<Trial>{
+             Trial(),
+             trial("median", {{"background", "median"}}),
+             trial("sobel", {{"method", "sobel"}, {"background", "none"}}),
+             trial("silhouette", {{"explains", "silhouette"}}),
+             trial("region", {{"explains", "region"}}),
+             trial("shapes", {{"least_piece_m", 0.2}, {"longest_line_m", 2.0}})};
        }},
       {"color",
        [](const fs::path&) {
-         return std::vector<Trial>{Trial(), trial("median", {{"background", "median"}}),
-                                   trial("one frame", {{"background_first", 1}}),
-                                   trial("living", {{"follow_light", true}, {"settle_s", 1}})};
+         return std::vector<Trial>{
+             Trial(),
+             trial("median", {{"background", "median"}}),
+             trial("one frame", {{"background_first", 1}}),
+             trial("living", {{"follow_light", true}, {"settle_s", 1}}),
+             trial("parts", {{"parts", {{0.486, 0.1}, {0.829, 0.1}, {1, 0.1}}}}),
+             trial("shapes",
+                   {{"least_height_m", 0.2}, {"least_column_m", 0.1}, {"most_hole", 0.05}})};
        }},
       // detectors
       {"boxes", [](const fs::path&) { return defaults(); }},
