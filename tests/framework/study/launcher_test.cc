@@ -28,9 +28,7 @@ class LauncherTest : public StudyProgram {
   void expect_goes_on_after_ctrl_c(const std::vector<std::string>& options) {
     write_mixed_study({1, 2}, 15000);
     const pid_t child = start("engine", options);
-    for (int i = 0; i < 6000 && results_in(folder_ / "engine") < 2; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
+    await_results(child, folder_ / "engine", 2);
     ::kill(child, SIGINT);
     EXPECT_EQ(end_of(child), 130) << errors("engine");
     EXPECT_LT(results_in(folder_ / "engine"), 8U);
@@ -130,9 +128,7 @@ TEST_F(SlurmTest, ATaskThatIsCancelledIsTriedAgainByTheNextStart) {
   write_mixed_study({1, 2}, 15000);
   const std::vector<std::string> options = {"--launcher", "slurm", "--jobs", "2"};
   const pid_t child = start("engine", options);
-  for (int i = 0; i < 6000 && results_in(folder_ / "engine") < 1; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  await_results(child, folder_ / "engine", 1);
   EXPECT_EQ(std::system("scancel --name=plaza-study"), 0);
   EXPECT_EQ(end_of(child), 3) << errors("engine");
   EXPECT_THAT(printed("engine"), HasSubstr("from outside; start the study again"));

@@ -106,6 +106,15 @@ class StudyProgram : public ProgramRun {
     }
     return count;
   }
+
+  /// Until that many runs are done, or the study has ended without; however slow the machine is.
+  static void await_results(pid_t study, const std::filesystem::path& out, std::size_t count) {
+    siginfo_t ended = {};
+    while (results_in(out) < count && ended.si_pid != study) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      ::waitid(P_PID, static_cast<id_t>(study), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+  }
 };
 
 }  // namespace plaza::test

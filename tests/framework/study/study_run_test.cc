@@ -76,9 +76,7 @@ TEST_F(StudyRun, KilledAtFiveRandomMomentsItEndsWithTheSameTable) {
 TEST_F(StudyRun, CtrlCEndsItCleanlyAndItGoesOn) {
   write_small_study(5000);
   const pid_t child = start("out");
-  for (int i = 0; i < 24000 && results_in(folder_ / "out") < 2; ++i) {  // slow under sanitizers
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  await_results(child, folder_ / "out", 2);
   ::kill(child, SIGINT);
   EXPECT_EQ(end_of(child), 130);
   EXPECT_THAT(errors("out"), HasSubstr("interrupted; the same command goes on"));
@@ -183,9 +181,7 @@ TEST_F(StudyRun, DamagedResultsAreComputedAgain) {
 TEST_F(StudyRun, TwoAtATimeInOneFolderAreRefused) {
   write_small_study(5000);
   const pid_t first = start("out");
-  for (int i = 0; i < 2000 && results_in(folder_ / "out") < 1; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  await_results(first, folder_ / "out", 1);
   fs::create_directory(folder_ / "elsewhere");
   EXPECT_EQ(run("out"), 2);
   EXPECT_THAT(errors("out"), HasSubstr("a study is at work in"));
