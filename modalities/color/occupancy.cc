@@ -85,6 +85,15 @@ AreaCounts::AreaCounts(const cv::Mat& mask) {
   }
 }
 
+bool AreaCounts::any_in(const cv::Rect& box) const {
+  if (empty() || box.empty()) return false;
+  const std::uint32_t* const top = data() + static_cast<std::size_t>(box.y) * stride_;
+  const std::uint32_t* const bottom = top + static_cast<std::size_t>(box.height) * stride_;
+  const auto left = static_cast<std::size_t>(box.x);
+  const std::size_t right = left + static_cast<std::size_t>(box.width);
+  return bottom[right] - bottom[left] != top[right] - top[left];
+}
+
 std::vector<BoundaryRun> boundary_of(const std::vector<RowSpan>& spans) {
   struct Step {
     std::int32_t x, row;
@@ -195,9 +204,12 @@ cv::Rect SpanTemplates::near_box(std::size_t body) const {
 TemplateCounts count(const SpanTemplates& templates, std::size_t index,
                      const AreaCounts& foreground, const AreaCounts& blind) {
   const SpanTemplate& t = templates.at(index);
+  // most places are empty, and most hide nothing: their boxes tell
+  const bool any_set = foreground.any_in(t.outer_box), any_blind = blind.any_in(t.outer_box);
+  if (!any_set && !any_blind) return {};
   const auto counts = [&](std::uint32_t begin, std::uint32_t end) {
     const std::span<const BoundaryRun> runs = templates.runs(begin, end);
-    return Counts{count_in(runs, foreground), blind.empty() ? 0 : count_in(runs, blind)};
+    return Counts{any_set ? count_in(runs, foreground) : 0, any_blind ? count_in(runs, blind) : 0};
   };
   return {counts(t.inner, t.near), counts(t.near, t.outer), counts(t.outer, t.end)};
 }

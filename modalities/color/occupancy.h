@@ -31,6 +31,8 @@ class AreaCounts {
   /// [y * stride() + x], 0 <= x <= width, 0 <= y <= height.
   const std::uint32_t* data() const { return counts_.data(); }
   std::size_t size() const { return counts_.size(); }
+  /// Whether a pixel in a box, which lies within the mask, is set; of no image: none.
+  bool any_in(const cv::Rect& box) const;
 
  private:
   std::vector<std::uint32_t> counts_;

@@ -30,6 +30,7 @@ std::optional<double> log_likelihood_in_parts(const SpanTemplates& templates, st
   const std::size_t first = body * templates.parts();
   std::array<Seen, kMostBodyParts> parts;
   unsigned telling = 0;
+  bool empty = true;
   double left = 0, full = 0;
   for (std::size_t k = 0; k < templates.parts(); ++k) {
     const SpanTemplate& t = templates.at(first + k);
@@ -38,12 +39,14 @@ std::optional<double> log_likelihood_in_parts(const SpanTemplates& templates, st
     full += t.full_area;
     if (!tells(t, c.inner, judgement.least_visible)) continue;
     telling |= 1U << k;
+    empty = empty && c.outer.set == 0;
     parts[k] = {.inside = t.inner_area - c.inner.hidden,
                 .set = c.inner.set,
                 .ring = t.outer_area - t.near_area - (c.outer.hidden - c.near.hidden),
                 .ring_set = c.outer.set - c.near.set};
   }
   if (telling == 0 || left < judgement.least_visible * full) return std::nullopt;
+  if (empty) return judgement.scale;  // in every case
   return judgement.mixture.log_likelihood(telling, [&](unsigned in_sight) {
     Seen all;
     for (std::size_t k = 0; k < templates.parts(); ++k) {
