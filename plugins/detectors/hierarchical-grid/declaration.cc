@@ -145,6 +145,14 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .unit("m")
       .above(0)
       .meaning("largest standard deviation that is read from the likelihood's curvature");
+  p.value("covariance_scale", &Options::covariance_scale)
+      .above(0)
+      .at_most(1000)
+      .meaning(
+          "factor on the covariance of positions: the curvature takes modalities for as informed "
+          "as "
+          "they say, which is more or less than they are; what the evaluator reliability calls "
+          "variance ratio, measured with 1, is what it should be");
   p.value("probability", &Options::probability)
       .meaning("calibration of scores: [score, probability] points, linear between, flat beyond");
   Declaration<Options> d("hierarchical-grid",

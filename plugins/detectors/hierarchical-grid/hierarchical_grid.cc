@@ -195,7 +195,7 @@ Detector::Detected HierarchicalGrid::do_detect_all(const NodeIo& io) const {
 Observation HierarchicalGrid::observation_of(const FoundPerson& person) const {
   Observation o;
   o.position_m = person.peak.position_m;
-  o.covariance_m2 = person.peak.covariance_m2;
+  o.covariance_m2 = options_.covariance_scale * person.peak.covariance_m2;
   o.probability = curve_(person.score);
   o.score = person.score;
   Body body = shape_->body();

@@ -47,6 +47,7 @@ class HierarchicalGrid final : public Detector, private Learner {
     double min_score = 1.5;
     int most = 100;
     double max_sigma_m = 0.5;
+    double covariance_scale = 1;
     std::vector<std::vector<double>> probability = {
         {0, 0.02}, {1, 0.3}, {2, 0.7}, {3, 0.9}, {4, 0.97}};
   };

@@ -149,6 +149,24 @@ TEST(HierarchicalGrid, AllGivesTheBestCellsForNetworksOfCells) {
   }
 }
 
+TEST(HierarchicalGrid, CovariancesAreScaledAndNothingElse) {
+  const Rig rig(small_scene(4));
+  HierarchicalGrid::Options options = Rig::defaults();
+  options.covariance_scale = 0.4;
+  const auto scaled = rig.make(options);
+  scaled->learner()->finish(0);
+  const auto views = rig.draw({{-2.1, -1.3}, {1.2, 2.4}}, 0.02, 1);
+  const auto plain = rig.run(views).detected.observations.items;
+  const auto other = rig.run(*scaled, views).detected.observations.items;
+  ASSERT_EQ(plain.size(), 2U);
+  ASSERT_EQ(other.size(), plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_TRUE(other[i].covariance_m2.isApprox(0.4 * plain[i].covariance_m2, 1e-12));
+    EXPECT_EQ(other[i].position_m, plain[i].position_m);
+    EXPECT_EQ(other[i].score, plain[i].score);
+  }
+}
+
 TEST(HierarchicalGrid, NothingIsFoundWhereNothingCanBeSeen) {
   const Rig rig(small_scene(3));
   for (const int level : {0, 255}) {

@@ -101,7 +101,26 @@ class RealModalities : public ::testing::TestWithParam<std::tuple<const char*, i
     return detector_->detect_all(NodeIo(0, 0, slots, inputs, outputs));
   }
 
+  /// What is found in one frame after the other, the modality remembering what it does.
+  std::vector<Observations> follow(const std::vector<std::vector<cv::Mat>>& frames) {
+    std::vector<Observations> found;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      auto images = std::make_shared<FrameSet>();
+      images->frame = static_cast<std::int64_t>(f);
+      images->time_ns = images->frame * 40'000'000;
+      images->views = frames[f];
+      PayloadPtr slots[] = {images, nullptr, nullptr, nullptr, nullptr};
+      const int frame_slot[] = {0}, evidence_slots[] = {1, 2}, found_slots[] = {3, 4};
+      NodeIo prepared(images->frame, images->time_ns, slots, frame_slot, evidence_slots);
+      modality_->process(prepared);
+      const NodeIo io(images->frame, images->time_ns, slots, {evidence_slots, 1}, found_slots);
+      found.push_back(detector_->detect_all(io).observations);
+    }
+    return found;
+  }
+
   const StateGrid& grid() const { return detector_->grid(); }
+  std::size_t views() const { return scene_->cameras.size(); }
 
  private:
   std::shared_ptr<Scene> scene_;
@@ -128,6 +147,38 @@ TEST_P(RealModalities, PeakAtTheTrueCell) {
     ASSERT_FALSE(detected.observations.items.empty());
     const Observation& first = detected.observations.items.front();
     EXPECT_LT((first.position_m - grid().position(finest, truth)).norm(), 0.2);
+  }
+}
+
+TEST_P(RealModalities, AfterACameraIsLostTheOthersGiveWhatTheyWouldHaveGivenWithoutIt) {
+  constexpr std::size_t kLoss = 3;
+  const auto people_at = [](unsigned frame) {
+    const double walked = 0.05 * frame;
+    return std::vector<Eigen::Vector2d>{{-1.5 + walked, 0.5}, {1.2, -1 - walked}};
+  };
+  std::vector<std::vector<cv::Mat>> lost, never;
+  for (unsigned f = 0; f < 6; ++f) {
+    lost.push_back(draw(people_at(f), f));
+    never.push_back(lost.back());
+    never.back().front().release();
+    if (f >= kLoss) lost.back() = never.back();
+  }
+  const std::vector<Observations> before_and_after = follow(lost), without = follow(never);
+  for (std::size_t f = kLoss; f < lost.size(); ++f) {
+    const auto& found = before_and_after[f].items;
+    ASSERT_EQ(found.size(), without[f].items.size()) << "frame " << f;
+    for (const Eigen::Vector2d& person : people_at(static_cast<unsigned>(f))) {
+      const auto is_there = [&](const Observation& o) {
+        return (o.position_m - person).norm() < 0.2;
+      };
+      if (views() > 3) {
+        EXPECT_TRUE(std::ranges::any_of(found, is_there)) << "frame " << f;
+      }
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].position_m, without[f].items[i].position_m);
+      EXPECT_EQ(found[i].score, without[f].items[i].score);
+    }
   }
 }
 
