@@ -67,6 +67,18 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .meaning(
           "how much less a view counts in its image's corners, where lenses are least sharp, "
           "growing with the squared distance from the middle; 0: as much as anywhere");
+  p.value("hidden_loss", &Options::hidden_loss)
+      .at_least(0)
+      .at_most(1)
+      .meaning(
+          "joint inference: how much less a view counts in which people who are accounted for hide "
+          "somebody wholly; in proportion to the share that they hide; 0: as much as any other");
+  p.value("empty_views", &Options::empty_views)
+      .at_least(0)
+      .at_most(100)
+      .meaning(
+          "so many views count as having seen an empty place, beside those that tell: what a "
+          "single view has seen is worth less than what several agree on");
   p.value("refine_above", &Options::refine_above)
       .at_least(0)
       .meaning(
@@ -104,6 +116,10 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .meaning(
           "mean-field inference: who has that score, by what the likelier ones leave, is "
           "considered; unset: half of min_score");
+  p.value("watch_score", &Options::watch_score)
+      .meaning(
+          "joint inference: places with less score while nobody is accounted for are not judged "
+          "again as people are accepted, which saves most of the time; unset: all are");
   p.value("rounds", &Options::rounds)
       .at_least(0)
       .at_most(100)

@@ -44,8 +44,8 @@ double log_mean(std::span<const double> values) {
 
 }  // namespace
 
-double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) {
-  return smoothed / level.trust[cell];
+double GridSearch::score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) const {
+  return smoothed / (level.trust[cell] + trust_.empty_views);
 }
 
 GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy,
@@ -56,15 +56,16 @@ GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy
       hierarchy_(&hierarchy),
       witnesses_(std::move(witnesses)),
       cameras_(cameras.size()),
+      trust_(trust),
       refine_above_(refine_above),
       spread_(spread) {
   for (const Camera& camera : cameras) centres_m_.push_back(camera.centre().head<2>());
-  reach_.assign(cameras_, std::vector<Box>(grid.size(grid.levels() - 1)));
+  boxes_.assign(cameras_, std::vector<Box>(grid.size(grid.levels() - 1)));
   for (std::size_t layer = 0; layer < hierarchy.layers().size(); ++layer) {
     const auto [level, scale] = hierarchy.layers()[layer];
     auto& batches = batches_.emplace_back(witnesses_.size() * cameras_);
     auto& templates = template_of_cell_.emplace_back(cameras_);
-    auto& trusts = trust_.emplace_back(cameras_);
+    auto& trusts = cell_trust_.emplace_back(cameras_);
     parallel_for(cameras_, [&, level = level, scale = scale](std::size_t camera) {
       const LevelTemplates& stored = hierarchy.templates(camera, layer);
       templates[camera].assign(grid.size(level), kUnseen);
@@ -99,10 +100,7 @@ GridSearch::GridSearch(const StateGrid& grid, const TemplateHierarchy& hierarchy
     const LevelTemplates& stored = hierarchy.templates(camera, grid.levels() - 1);
     for (std::size_t i = 0; i < stored.cells.size(); ++i) {
       std::size_t offset = stored.offsets[i];
-      const Box box = decode(stored.bytes, offset).box;
-      const double margin = kReach * box.height;
-      reach_[camera][stored.cells[i]] = {box.left - margin, box.top - margin,
-                                         box.width + 2 * margin, box.height + 2 * margin};
+      boxes_[camera][stored.cells[i]] = decode(stored.bytes, offset).box;
     }
   }
 }
@@ -197,6 +195,7 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
     here.trust.assign(here.joint.size(), 0);
     here.evaluated.assign(grid_->size(level), 0);
     here.views.assign(cameras_, Values(grid_->size(level), kUnknown));
+    here.view_trust.assign(cameras_, std::vector<float>(grid_->size(level), 0));
     if (parents != nullptr) {
       for (std::size_t cell = 0; cell < here.joint.size(); ++cell) {
         const CellIndex parent = grid_->parent(level, static_cast<CellIndex>(cell));
@@ -205,7 +204,7 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
         here.trust[cell] = parents->trust[parent];
       }
     }
-    combine(level, wanted, values, baselines, here);
+    combine(level, wanted, values, baselines, {}, here);
     result.levels.push_back(std::move(here));
   }
   result.baselines = std::move(baselines);
@@ -213,7 +212,8 @@ SearchResult GridSearch::search(const AllEvidence& evidence) const {
 }
 
 void GridSearch::combine(std::size_t layer, const ViewCells& wanted, std::span<const Values> values,
-                         std::span<const double> baselines, LevelLikelihood& level) const {
+                         std::span<const double> baselines,
+                         std::span<const std::vector<Box>> hidden, LevelLikelihood& level) const {
   std::vector<CellIndex> cells;
   std::vector<char> listed(level.joint.size(), 0);
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
@@ -229,26 +229,27 @@ void GridSearch::combine(std::size_t layer, const ViewCells& wanted, std::span<c
       }
       const CellIndex cell = wanted[camera][i];
       level.views[camera][cell] = told ? sum : kUnknown;
+      if (told) {
+        float trust = cell_trust_[layer][camera][cell];
+        if (trust_.hidden_loss > 0 && !hidden.empty()) {
+          trust *= static_cast<float>(trust_.of_hidden(boxes_[camera][cell], hidden[camera]));
+        }
+        level.view_trust[camera][cell] = trust;
+      }
       if (listed[cell] == 0) cells.push_back(cell);
       listed[cell] = 1;
     }
   }
-  join_layer(layer, cells, level);
+  join(cells, level);
 }
 
-void GridSearch::join(std::size_t size, std::span<const CellIndex> cells,
-                      LevelLikelihood& finest) const {
-  join_layer(grid_->levels() - 1 + size, cells, finest);
-}
-
-void GridSearch::join_layer(std::size_t layer, std::span<const CellIndex> cells,
-                            LevelLikelihood& level) const {
+void GridSearch::join(std::span<const CellIndex> cells, LevelLikelihood& level) const {
   for (const CellIndex cell : cells) {
     double sum = 0, trust = 0;
     for (std::size_t camera = 0; camera < cameras_; ++camera) {
       const double view = level.views[camera][cell];
       if (!std::isfinite(view)) continue;
-      const double share = trust_[layer][camera][cell];
+      const double share = level.view_trust[camera][cell];
       sum += share * view;
       trust += share;
     }
@@ -259,28 +260,35 @@ void GridSearch::join_layer(std::size_t layer, std::span<const CellIndex> cells,
   }
 }
 
-void GridSearch::judge(const AllEvidence& evidence, std::span<const double> baselines,
-                       std::size_t size, const ViewCells& cells, LevelLikelihood& finest) const {
+void GridSearch::judge(const Remainder& rest, std::span<const double> baselines, std::size_t size,
+                       const ViewCells& cells, LevelLikelihood& finest) const {
   const std::size_t layer = grid_->levels() - 1 + size;
-  combine(layer, cells, evaluate(layer, cells, evidence), baselines, finest);
+  combine(layer, cells, evaluate(layer, cells, rest.evidence), baselines, rest.hidden, finest);
 }
 
-AllEvidence GridSearch::explain(const AllEvidence& evidence, std::span<const PlacedBody> people,
-                                std::optional<CellIndex> behind) const {
+Remainder GridSearch::explain(Remainder rest, std::span<const PlacedBody> people,
+                              std::optional<CellIndex> behind) const {
   const auto distance = [&](std::size_t camera, CellIndex cell) {
     return (grid_->position(grid_->levels() - 1, cell) - centres_m_[camera]).norm();
   };
-  AllEvidence rest = evidence;
+  const auto hides = [&](std::size_t camera, const PlacedBody& body) {
+    return !behind || distance(camera, body.cell) < distance(camera, *behind);
+  };
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    for (const PlacedBody& body : people) {
+      const Box& box = boxes_[camera][body.cell];
+      if (box.width > 0 && hides(camera, body)) rest.hidden[camera].push_back(box);
+    }
+  }
   parallel_for(witnesses_.size() * cameras_, [&](std::size_t pair) {
     const std::size_t w = pair / cameras_, camera = pair % cameras_;
-    EvidencePtr& view = rest[w][camera];
+    EvidencePtr& view = rest.evidence[w][camera];
     if (!view) return;
     for (std::size_t size = 0; size < sizes().size(); ++size) {
       const std::size_t layer = grid_->levels() - 1 + size;
       std::vector<std::uint32_t> which;
       for (const PlacedBody& body : people) {
-        if (body.size != size) continue;
-        if (behind && !(distance(camera, body.cell) < distance(camera, *behind))) continue;
+        if (body.size != size || !hides(camera, body)) continue;
         const std::uint32_t index = template_of_cell_[layer][camera][body.cell];
         if (index != kUnseen) which.push_back(index);
       }
@@ -293,9 +301,10 @@ AllEvidence GridSearch::explain(const AllEvidence& evidence, std::span<const Pla
 }
 
 bool GridSearch::touch(std::size_t camera, CellIndex a, CellIndex b) const {
-  const Box &p = reach_[camera][a], &q = reach_[camera][b];
-  return p.width > 0 && q.width > 0 && p.left < q.right() && q.left < p.right() &&
-         p.top < q.bottom() && q.top < p.bottom();
+  const Box &p = boxes_[camera][a], &q = boxes_[camera][b];
+  const double reach = kReach * (p.height + q.height);
+  return p.width > 0 && q.width > 0 && p.left < q.right() + reach && q.left < p.right() + reach &&
+         p.top < q.bottom() + reach && q.top < p.bottom() + reach;
 }
 
 bool GridSearch::touch(CellIndex a, CellIndex b) const {

@@ -30,12 +30,9 @@ struct LevelLikelihood {
   std::vector<double> per_view;            ///< [cell]: joint over trust
   std::vector<char> evaluated;             ///< [cell]: 1 where the values are the cell's own
   std::vector<std::vector<double>> views;  ///< [camera][cell]: the cell's own; NaN elsewhere
+  /// [camera][cell]: how much that view counts, where `views` is known.
+  std::vector<std::vector<float>> view_trust;
 };
-
-/// What a place is judged by: the smoothed log-likelihood over that of an empty place, per view
-/// that told, each counted by its trust. Sums grow with the views that look at a place whether they
-/// agree or not. NaN where none told.
-double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level);
 
 /// Cells of a level that are looked at in each view: [camera].
 using ViewCells = std::vector<std::vector<CellIndex>>;
@@ -47,6 +44,12 @@ using AllEvidence = std::vector<std::vector<EvidencePtr>>;
 struct PlacedBody {
   CellIndex cell = 0;
   std::size_t size = 0;  ///< index of GridSearch::sizes()
+};
+
+/// What is left of a frame's evidence when some people are accounted for.
+struct Remainder {
+  AllEvidence evidence;
+  std::vector<std::vector<Box>> hidden;  ///< [camera]: around whoever is accounted for there
 };
 
 struct SearchResult {
@@ -78,7 +81,10 @@ class GridSearch {
              std::vector<Witness> witnesses, std::span<const Camera> cameras,
              const ViewTrust& trust, double refine_above, int spread);
 
-  /// Thread-safe, as is all of the following.
+  /// What a place is judged by: the smoothed log-likelihood over that of an empty place, per view
+  /// that told, each counted by its trust. Sums grow with the views that look at a place whether
+  /// they agree or not. NaN where none told. Thread-safe, as is all of the following.
+  double score_of(CellIndex cell, double smoothed, const LevelLikelihood& level) const;
   SearchResult search(const AllEvidence& evidence) const;
 
   /// Layers of the finest level: bodies of the model's own size first.
@@ -88,15 +94,18 @@ class GridSearch {
   /// Evaluates cells of the finest level against other evidence, with bodies of sizes()[size], and
   /// writes their values, and nothing but theirs, to `finest`: of each view those of its own cells;
   /// what the other views have said of these cells before stays and counts.
-  void judge(const AllEvidence& evidence, std::span<const double> baselines, std::size_t size,
+  void judge(const Remainder& rest, std::span<const double> baselines, std::size_t size,
              const ViewCells& cells, LevelLikelihood& finest) const;
   /// Sums up anew what `finest` holds of these cells view by view.
-  void join(std::size_t size, std::span<const CellIndex> cells, LevelLikelihood& finest) const;
-  /// The evidence without what people in these cells of the finest level account for. With
-  /// `behind`, in each view only without those of them who stand nearer to the camera than that
-  /// cell, and could therefore hide who stands there.
-  AllEvidence explain(const AllEvidence& evidence, std::span<const PlacedBody> people,
-                      std::optional<CellIndex> behind = {}) const;
+  void join(std::span<const CellIndex> cells, LevelLikelihood& level) const;
+  /// All of a frame's evidence.
+  Remainder nobody(const AllEvidence& evidence) const {
+    return {evidence, std::vector<std::vector<Box>>(cameras_)};
+  }
+  /// What these people leave of it. With `behind`, in each view only without those of them who
+  /// stand nearer to the camera than that cell, and could therefore hide who stands there.
+  Remainder explain(Remainder rest, std::span<const PlacedBody> people,
+                    std::optional<CellIndex> behind = {}) const;
   /// Cells of the finest level whose people could share evidence with somebody in `cell`: their
   /// silhouettes' boxes, grown by an eighth of their heights, meet in that view.
   ViewCells touching(CellIndex cell) const;
@@ -111,9 +120,8 @@ class GridSearch {
                                const AllEvidence& evidence) const;
   /// Writes to `level` what these values say of each view's cells, and joins those.
   void combine(std::size_t layer, const ViewCells& wanted, std::span<const Values> values,
-               std::span<const double> baselines, LevelLikelihood& level) const;
-  void join_layer(std::size_t layer, std::span<const CellIndex> cells,
-                  LevelLikelihood& level) const;
+               std::span<const double> baselines, std::span<const std::vector<Box>> hidden,
+               LevelLikelihood& level) const;
   bool touch(std::size_t camera, CellIndex a, CellIndex b) const;
   std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
 
@@ -121,6 +129,7 @@ class GridSearch {
   const TemplateHierarchy* hierarchy_;
   std::vector<Witness> witnesses_;
   std::size_t cameras_;
+  ViewTrust trust_;
   double refine_above_;
   int spread_;
   /// [layer][witness * cameras + camera]
@@ -128,10 +137,10 @@ class GridSearch {
   /// [layer][camera][cell]: index of the template in the batch; kUnseen: the view doesn't see it
   std::vector<std::vector<std::vector<std::uint32_t>>> template_of_cell_;
   /// [layer][camera][cell]: of the view; only where it sees the cell
-  std::vector<std::vector<std::vector<float>>> trust_;
+  std::vector<std::vector<std::vector<float>>> cell_trust_;
   std::vector<std::vector<CellIndex>> seen_cells_;  ///< [level]: by any camera, rising
-  /// [camera][cell of the finest level]: of the silhouette, grown; empty where it isn't seen
-  std::vector<std::vector<Box>> reach_;
+  /// [camera][cell of the finest level]: of the silhouette; empty where it isn't seen
+  std::vector<std::vector<Box>> boxes_;
   std::vector<Eigen::Vector2d> centres_m_;  ///< [camera]: where it is, on the ground
 };
 

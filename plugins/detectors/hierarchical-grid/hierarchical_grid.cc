@@ -83,7 +83,8 @@ void HierarchicalGrid::do_load(std::istream& in) {
 void HierarchicalGrid::sample() {
   search_ = std::make_unique<GridSearch>(
       grid_, hierarchy_, *shape_, witnesses_, scene_->cameras,
-      ViewTrust{options_.visible_share, options_.sharp_px, options_.edge_loss},
+      ViewTrust{options_.visible_share, options_.sharp_px, options_.edge_loss, options_.hidden_loss,
+                options_.empty_views},
       options_.refine_above, options_.spread);
   if (options_.inference != Inference::kIndependent) {
     const bool mean_field = options_.inference == Inference::kMeanField;
@@ -93,6 +94,7 @@ void HierarchicalGrid::sample() {
             .min_score = options_.min_score,
             .accept_score = mean_field ? options_.accept_score.value_or(options_.min_score / 2)
                                        : options_.min_score,
+            .watch_score = options_.watch_score,
             .mean_field = mean_field ? &curve_ : nullptr,
             .most = options_.most,
             .rounds = options_.rounds,
@@ -150,7 +152,7 @@ std::vector<FoundPerson> HierarchicalGrid::independently(const LevelLikelihood& 
     }
   }
   std::erase_if(found, [&](CellIndex cell) {
-    return !(score_of(cell, surface[cell], finest) >= options_.min_score);
+    return !(search_->score_of(cell, surface[cell], finest) >= options_.min_score);
   });
   std::stable_sort(found.begin(), found.end(),
                    [&](CellIndex a, CellIndex b) { return surface[a] > surface[b]; });
@@ -158,7 +160,7 @@ std::vector<FoundPerson> HierarchicalGrid::independently(const LevelLikelihood& 
   for (const CellIndex cell : found) {
     FoundPerson& person = people.emplace_back();
     person.body.cell = cell;
-    person.score = score_of(cell, surface[cell], finest);
+    person.score = search_->score_of(cell, surface[cell], finest);
     person.peak = options_.maxima == Maxima::kLocal
                       ? peak_at(grid, surface, cell, options_.max_sigma_m)
                       : Peak{grid_.position(grid_.levels() - 1, cell), covariance_of_cell(grid)};

@@ -32,12 +32,15 @@ class HierarchicalGrid final : public Detector, private Learner {
     bool visible_share = false;
     double sharp_px = 0;
     double edge_loss = 0;
+    double hidden_loss = 0;
+    double empty_views = 0;
     double refine_above = 1;
     int spread = 1;
     double smoothing_m = 0.22;
     std::optional<double> separation_m;
     Inference inference = Inference::kIndependent;
     std::optional<double> accept_score;
+    std::optional<double> watch_score;
     int rounds = 3;
     double reach_m = 0.5;
     bool occlusion_order = false;

@@ -22,13 +22,20 @@ class JointSearch::Scenario {
   Scenario(const JointSearch& search, const AllEvidence& evidence, const SearchResult& first)
       : s_(search),
         grid_(search.grid_->finest()),
-        evidence_(evidence),
         baselines_(first.baselines),
-        rest_(evidence),
+        whole_(search.search_->nobody(evidence)),
+        rest_(whole_),
         now_(first.levels.back()),
         surface_(smoothed(grid_, now_.joint, search.neighbours_)),
         own_(grid_, *search.search_, search.neighbours_, search.priors_, evidence, first),
-        moved_(now_.views.size(), std::vector<char>(surface_.size(), 0)) {}
+        watched_(surface_.size(), 1),
+        moved_(now_.views.size(), std::vector<char>(surface_.size(), 0)) {
+    if (!s_.options_.watch_score) return;
+    for (std::size_t i = 0; i < surface_.size(); ++i) {
+      const double score = s_.search_->score_of(static_cast<CellIndex>(i), surface_[i], now_);
+      if (score < *s_.options_.watch_score) watched_[i] = 0;
+    }
+  }
 
   void accept() {
     while (people_.size() < static_cast<std::size_t>(s_.options_.most)) {
@@ -36,7 +43,7 @@ class JointSearch::Scenario {
       if (!best) break;
       disturb(*best);
       people_.emplace_back().person.body.cell = *best;
-      people_.back().presence = presence_at(score_of(*best, surface_[*best], now_));
+      people_.back().presence = presence_at(s_.search_->score_of(*best, surface_[*best], now_));
       const PlacedBody body[] = {people_.back().person.body};
       rest_ = s_.search_->explain(rest_, body);
       refresh(s_.search_->touching(*best));
@@ -76,7 +83,7 @@ class JointSearch::Scenario {
 
   /// What is left when everybody has moved.
   void take_away_again() {
-    rest_ = s_.search_->explain(evidence_, likely_others(people_.size()));
+    rest_ = s_.search_->explain(whole_, likely_others(people_.size()));
     ViewCells cells(moved_.size());
     for (std::size_t camera = 0; camera < moved_.size(); ++camera) {
       for (std::size_t i = 0; i < moved_[camera].size(); ++i) {
@@ -125,7 +132,7 @@ class JointSearch::Scenario {
       const auto cell = static_cast<CellIndex>(i);
       if (now_.evaluated[i] == 0 || !std::isfinite(surface_[i])) continue;
       if (best && !(surface_[i] > surface_[*best])) continue;
-      if (!(score_of(cell, surface_[i], now_) >= s_.options_.accept_score)) continue;
+      if (!(s_.search_->score_of(cell, surface_[i], now_) >= s_.options_.accept_score)) continue;
       if (blocked(cell, people_.size())) continue;
       best = cell;
     }
@@ -137,7 +144,8 @@ class JointSearch::Scenario {
   void refresh(ViewCells cells) {
     std::vector<char> looked(surface_.size(), 0), todo = looked;
     std::vector<CellIndex> never;
-    for (const std::vector<CellIndex>& view : cells) {
+    for (std::vector<CellIndex>& view : cells) {
+      std::erase_if(view, [&](CellIndex cell) { return watched_[cell] == 0; });
       for (const CellIndex cell : view) {
         if (looked[cell] != 0) continue;
         looked[cell] = 1;
@@ -222,7 +230,7 @@ class JointSearch::Scenario {
         weight *= there ? other.presence : 1 - other.presence;
         if (there) present.push_back(other.person.body);
       }
-      own_.use(s_.search_->explain(evidence_, present));
+      own_.use(s_.search_->explain(whole_, present));
       const double score = own_.score(body);
       if (!std::isfinite(score)) continue;
       sum += weight * score;
@@ -239,8 +247,7 @@ class JointSearch::Scenario {
       return !s_.search_->touch(other.cell, person.body.cell);
     });
     own_.use(s_.search_->explain(
-        evidence_, others,
-        s_.options_.nearer_only ? std::optional(person.body.cell) : std::nullopt));
+        whole_, others, s_.options_.nearer_only ? std::optional(person.body.cell) : std::nullopt));
     if (may_move) {
       person.body.cell = climb(person.body, k);
       const PlacedBody before = person.body;
@@ -280,13 +287,14 @@ class JointSearch::Scenario {
 
   const JointSearch& s_;
   const GroundGrid& grid_;
-  const AllEvidence& evidence_;
   std::span<const double> baselines_;
-  AllEvidence rest_;             ///< what nobody accounts for
+  const Remainder whole_;
+  Remainder rest_;               ///< what nobody accounts for
   LevelLikelihood now_;          ///< by the rest
   std::vector<double> surface_;  ///< now_, smoothed
   OwnLikelihood own_;            ///< of who is being placed, by what the others leave
   std::vector<Entry> people_;
+  std::vector<char> watched_;             ///< [cell]: whether it is judged again
   std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether a move has touched it
 };
 

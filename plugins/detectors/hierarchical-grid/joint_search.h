@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,8 @@ class JointSearch {
   struct Options {
     double min_score = 0;
     double accept_score = 0;  ///< of whom is considered at all; at most min_score
+    /// Places with less, by all the evidence, are nobody's, whoever is accounted for later.
+    std::optional<double> watch_score;
     const ProbabilityCurve* mean_field = nullptr;  ///< of presence, by score; null: greedily
     int most = 1;                                  ///< people
     int rounds = 0;                                ///< of judging again; 0: what is accepted stays

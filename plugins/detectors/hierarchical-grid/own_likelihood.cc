@@ -13,6 +13,7 @@ LevelLikelihood unknown_like(const LevelLikelihood& other) {
   out.trust.assign(other.joint.size(), 0);
   out.evaluated.assign(other.evaluated.size(), 0);
   out.views.assign(other.views.size(), out.joint);
+  out.view_trust.assign(other.views.size(), std::vector<float>(other.joint.size(), 0));
   return out;
 }
 
@@ -32,8 +33,8 @@ OwnLikelihood::OwnLikelihood(const GroundGrid& grid, const GridSearch& search,
       known_(priors.size(), std::vector<char>(first.levels.back().joint.size(), 0)),
       surface_(first.levels.back().joint.size(), kUnknown) {}
 
-void OwnLikelihood::use(AllEvidence evidence) {
-  own_ = std::move(evidence);
+void OwnLikelihood::use(Remainder rest) {
+  own_ = std::move(rest);
   for (const PlacedBody& body : looked_at_) {
     known_[body.size][body.cell] = 0;
     known_values_[body.size].joint[body.cell] = kUnknown;
@@ -56,19 +57,20 @@ void OwnLikelihood::look_at(std::span<const CellIndex> cells, std::size_t size) 
   ViewCells unseen(values.views.size());
   for (std::size_t camera = 0; camera < unseen.size(); ++camera) {
     const bool whole =
-        std::equal(own_.begin(), own_.end(), whole_->begin(),
+        std::equal(own_.evidence.begin(), own_.evidence.end(), whole_->begin(),
                    [&](const auto& a, const auto& b) { return a[camera] == b[camera]; });
     for (const CellIndex cell : missing) {
       // where nobody else is in a view, the first search has seen all that there is
       if (whole && size == 0 && before.evaluated[cell] != 0) {
         values.views[camera][cell] = before.views[camera][cell];
+        values.view_trust[camera][cell] = before.view_trust[camera][cell];
       } else {
         unseen[camera].push_back(cell);
       }
     }
   }
   search_->judge(own_, first_->baselines, size, unseen, values);
-  search_->join(size, missing, values);
+  search_->join(missing, values);
   for (const CellIndex cell : missing) looked_at_.push_back({cell, size});
 }
 
@@ -81,7 +83,7 @@ double OwnLikelihood::value(const PlacedBody& body) {
 
 double OwnLikelihood::score(const PlacedBody& body) {
   const double smoothed = value(body);
-  return score_of(body.cell, smoothed, known_values_[body.size]);
+  return search_->score_of(body.cell, smoothed, known_values_[body.size]);
 }
 
 Peak OwnLikelihood::peak(const PlacedBody& body, double max_sigma_m) {

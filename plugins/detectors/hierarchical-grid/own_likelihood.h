@@ -20,7 +20,7 @@ class OwnLikelihood {
                 const AllEvidence& whole, const SearchResult& first);
 
   /// The next one's turn.
-  void use(AllEvidence evidence);
+  void use(Remainder rest);
 
   /// Judges what these places need and isn't known yet, all at once; which is faster than one by
   /// one, and no more.
@@ -40,7 +40,7 @@ class OwnLikelihood {
   const AllEvidence* whole_;
   const SearchResult* first_;
   std::vector<Neighbour> ring_;  ///< a cell itself and the eight around it
-  AllEvidence own_;
+  Remainder own_;
   std::vector<LevelLikelihood> known_values_;  ///< [size], where known_
   std::vector<std::vector<char>> known_;       ///< [size][cell]
   std::vector<PlacedBody> looked_at_;          ///< where known_

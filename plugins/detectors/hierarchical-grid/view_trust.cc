@@ -14,4 +14,19 @@ double ViewTrust::of(const Silhouette& silhouette, const Eigen::Vector2i& image_
   return trust * (1 - edge_loss * corners);
 }
 
+double ViewTrust::of_hidden(const Box& silhouette, std::span<const Box> others) const {
+  double visible = 1;
+  for (const Box& other : others) {
+    const double width =
+        std::min(silhouette.right(), other.right()) - std::max(silhouette.left, other.left);
+    const double height =
+        std::min(silhouette.bottom(), other.bottom()) - std::max(silhouette.top, other.top);
+    // as if they hid it independently: boxes are loose, and two seldom cover the same part
+    if (width > 0 && height > 0) {
+      visible *= 1 - width * height / (silhouette.width * silhouette.height);
+    }
+  }
+  return 1 - hidden_loss * (1 - visible);
+}
+
 }  // namespace plaza

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "plaza/geometry/silhouette.h"
 
@@ -14,8 +15,13 @@ struct ViewTrust {
   double sharp_px = 0;         ///< a body less high than that counts proportionally less
   double edge_loss = 0;        ///< share lost in the image's corners, growing with distance squared
 
+  double hidden_loss = 0;  ///< share lost where others wholly hide the silhouette's box
+  double empty_views = 0;  ///< views that count as having seen an empty place
+
   /// In [0, 1], of a silhouette in an image of that size, pixels.
   double of(const Silhouette& silhouette, const Eigen::Vector2i& image_size) const;
+  /// In [0, 1], of a silhouette with that box in a view in which others are accounted for.
+  double of_hidden(const Box& silhouette, std::span<const Box> others) const;
 };
 
 }  // namespace plaza

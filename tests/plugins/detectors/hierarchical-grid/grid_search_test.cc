@@ -62,6 +62,32 @@ TEST(ViewTrust, AViewThatSeesOnlyAFootCountsLess) {
   EXPECT_GT(weighed, alike + 0.1);
 }
 
+TEST(ViewTrust, FallsWithTheShareThatOthersHide) {
+  const Box body{100, 100, 50, 100};
+  const Box left_half{80, 90, 45, 120}, lower_half{90, 150, 80, 100}, elsewhere{200, 100, 50, 100};
+  const auto trust = [&](const std::vector<Box>& others, double loss) {
+    return ViewTrust{.hidden_loss = loss}.of_hidden(body, others);
+  };
+  EXPECT_DOUBLE_EQ(trust({left_half}, 0), 1);
+  EXPECT_DOUBLE_EQ(trust({elsewhere}, 1), 1);
+  EXPECT_DOUBLE_EQ(trust({left_half}, 1), 0.5);
+  EXPECT_DOUBLE_EQ(trust({left_half}, 0.5), 0.75);
+  EXPECT_DOUBLE_EQ(trust({left_half, lower_half}, 1), 0.25);
+  EXPECT_DOUBLE_EQ(trust({body}, 1), 0);
+}
+
+TEST(ViewTrust, WhatOneViewSawIsWorthLessThanWhatSeveralAgreeOn) {
+  HierarchicalGrid::Options options = Rig::defaults();
+  options.min_score = 1;
+  const auto score = [&](int cameras, double empty_views) {
+    options.empty_views = empty_views;
+    const Rig rig(small_scene(cameras), options);
+    return rig.run(rig.draw({{0.33, -1.21}}, 0.01, 3)).detected.observations.items.at(0).score;
+  };
+  EXPECT_NEAR(score(1, 1), score(1, 0) / 2, 1e-9);
+  EXPECT_NEAR(score(4, 1), score(4, 0) * 4 / 5, 1e-9);
+}
+
 class Explained : public ::testing::Test {
  protected:
   /// Values of the cells of two people in each view, without what `people` account for.
@@ -72,7 +98,7 @@ class Explained : public ::testing::Test {
     }
     const SearchResult result = search_.search(evidence);
     LevelLikelihood level = result.levels.back();
-    search_.judge(search_.explain(evidence, people, behind), result.baselines, 0,
+    search_.judge(search_.explain(search_.nobody(evidence), people, behind), result.baselines, 0,
                   ViewCells(views_.size(), both_), level);
     return level;
   }
@@ -93,7 +119,8 @@ class Explained : public ::testing::Test {
     h.compute(shape_, 0.3, true);
     return h;
   }();
-  GridSearch search_{grid_, hierarchy_, shape_, {{modality_, 1}}, scene_->cameras, {}, 0, 0};
+  GridSearch search_{grid_,           hierarchy_,         shape_, {{modality_, 1}},
+                     scene_->cameras, {.hidden_loss = 1}, 0,      0};
   Eigen::Vector2d towards_ = scene_->cameras[0].centre().head<2>().normalized();
   Eigen::Vector2d aside_{-towards_.y(),
                          towards_.x()};  ///< so that something of who is behind shows
@@ -115,6 +142,16 @@ TEST_F(Explained, WhoStandsBehindLosesWhatIsHidden) {
   const LevelLikelihood order = without(near, far_), any = without(near, {});
   EXPECT_EQ(order.views[0][far_], any.views[0][far_]);
   EXPECT_NE(order.views[0][far_], without({}, {}).views[0][far_]);
+}
+
+TEST_F(Explained, AViewInWhichOthersHideSomebodyCountsLessForThemAlone) {
+  const PlacedBody near[] = {{near_, 0}};
+  const LevelLikelihood level = without(near, {}), all = without({}, {});
+  EXPECT_EQ(all.view_trust[0][far_], 1);
+  EXPECT_LT(level.view_trust[0][far_], 0.8);
+  EXPECT_NEAR(level.trust[far_], level.view_trust[0][far_] + level.view_trust[1][far_], 1e-6);
+  const PlacedBody far[] = {{far_, 0}};
+  EXPECT_EQ(without(far, near_).view_trust[0][near_], 1);
 }
 
 }  // namespace

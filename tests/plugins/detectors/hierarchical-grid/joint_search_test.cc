@@ -71,6 +71,7 @@ std::vector<Eigen::Vector2d> crowd(std::mt19937& random) {
   return people;
 }
 
+/// The same crowds of five each time.
 Errors errors_in_crowds(const HierarchicalGrid::Options& options, int cameras) {
   const Rig rig(small_scene(cameras), options);
   std::mt19937 random(7);
@@ -98,6 +99,20 @@ TEST(JointSearch, JudgingAgainMendsWhatWasAcceptedTooSoon) {
   const Errors once = errors_in_crowds(options_of(Inference::kGreedy, 0), 3);
   const Errors again = errors_in_crowds(options_of(Inference::kGreedy, 3), 3);
   EXPECT_LT(again.all(), once.all());
+}
+
+TEST(JointSearch, PlacesThatNothingSpeaksForNeedNotBeWatched) {
+  const Errors all = errors_in_crowds(options_of(Inference::kGreedy), 3);
+  HierarchicalGrid::Options o = options_of(Inference::kGreedy);
+  o.watch_score = 0.25 * o.min_score;
+  const Errors promising = errors_in_crowds(o, 3);
+  EXPECT_LE(promising.all(), all.all() + 1);
+  // with no place watched, nobody is found who is somebody only by what the others leave
+  o = options_of(Inference::kGreedy, 0);
+  const Errors once = errors_in_crowds(o, 3);
+  o.watch_score = 1e6;
+  const Errors never = errors_in_crowds(o, 3);
+  EXPECT_GT(never.missed, once.missed) << never.invented << ' ' << once.invented;
 }
 
 TEST(JointSearch, NobodyIsNobody) {
