@@ -21,7 +21,8 @@ BodyScale::BodyScale(const Camera& camera, const GroundArea& area, const Body& b
   const Eigen::Vector2d corner = area.min_m.array() - kBeyond_m;
   const Eigen::Vector2d extent = area.max_m - area.min_m + Eigen::Vector2d::Constant(2 * kBeyond_m);
   for (int i = 0; i < kPlaces * kPlaces; ++i) {
-    const Eigen::Vector2d share((i % kPlaces + 0.5) / kPlaces, (i / kPlaces + 0.5) / kPlaces);
+    const int column = i % kPlaces, row = i / kPlaces;
+    const Eigen::Vector2d share((column + 0.5) / kPlaces, (row + 0.5) / kPlaces);
     const std::optional<Box> box = body_box(camera, corner + share.cwiseProduct(extent), body);
     if (!box) continue;
     const auto px_per_m = static_cast<float>(box->height / body.height_m);
