@@ -69,7 +69,7 @@ TEST_P(DamagedInput, ViewsWithoutImagesAreNamedAndTheRunIsComplete) {
   EXPECT_TRUE(report.complete);
   EXPECT_EQ(report.frames, 9);
   EXPECT_THAT(report.notes, ElementsAre("node 'cameras', camera 'b': no image in frames 3, 7-9 (4 "
-                                        "of 9)"));
+                                        "of 9); its last one is that of frame 6"));
   EXPECT_EQ(summary()["complete"], true);
 }
 
