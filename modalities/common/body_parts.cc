@@ -9,38 +9,31 @@
 #include "plaza/core/error.h"
 
 namespace plaza {
-namespace {
-
-[[noreturn]] void refuse(const std::string& pointer, const std::string& message) {
-  Diagnostic fault;
-  fault.pointer = pointer;
-  fault.message = message;
-  throw UserError(fault);
-}
-
-}  // namespace
-
 std::vector<BodyPart> read_body_parts(std::span<const std::vector<double>> pairs) {
   if (pairs.size() > kMostBodyParts) {
-    refuse("/parts", "at most " + std::to_string(kMostBodyParts) + " parts");
+    throw UserError(fault_at("/parts", "at most " + std::to_string(kMostBodyParts) + " parts"));
   }
   std::vector<BodyPart> parts;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const std::string pointer = "/parts/" + std::to_string(i);
     if (pairs[i].size() != 2) {
-      refuse(pointer, "a part is [upper end as a share of the height, probability to be hidden]");
+      throw UserError(fault_at(
+          pointer, "a part is [upper end as a share of the height, probability to be hidden]"));
     }
     const BodyPart part{.top = pairs[i][0], .hidden = pairs[i][1]};
     if (!(part.top > (i > 0 ? parts.back().top : 0) && part.top <= 1)) {
-      refuse(pointer, "upper ends rise from the lowest part to the uppermost, up to 1");
+      throw UserError(
+          fault_at(pointer, "upper ends rise from the lowest part to the uppermost, up to 1"));
     }
     if (!(part.hidden >= 0 && part.hidden < 1)) {
-      refuse(pointer, "the probability to be hidden must be at least 0 and below 1");
+      throw UserError(
+          fault_at(pointer, "the probability to be hidden must be at least 0 and below 1"));
     }
     parts.push_back(part);
   }
   if (!parts.empty() && parts.back().top != 1) {
-    refuse("/parts/" + std::to_string(parts.size() - 1), "the uppermost part ends at 1");
+    throw UserError(
+        fault_at("/parts/" + std::to_string(parts.size() - 1), "the uppermost part ends at 1"));
   }
   return parts;
 }

@@ -28,10 +28,7 @@ std::string device_name() {
 
 Diagnostics check_device() {
   if (!device_name().empty()) return {};
-  Diagnostic fault;
-  fault.pointer = "/device";
-  fault.message = kRemedy;
-  return {fault};
+  return {fault_at("/device", kRemedy)};
 }
 
 Program::Program(const char* source) {

@@ -63,10 +63,7 @@ Edges::Edges(const Options& options, const BuildContext& context)
                         .min_points = options.min_points,
                         .spans = options.explains != Explains::kContour} {
   if (options.low_threshold > options.high_threshold) {
-    Diagnostic fault;
-    fault.pointer = "/low_threshold";
-    fault.message = "must not be above \"high_threshold\"";
-    throw UserError(fault);
+    throw UserError(fault_at("/low_threshold", "must not be above \"high_threshold\""));
   }
   if (options.background != BackgroundMethod::kNone) {
     BackgroundOptions background;

@@ -100,10 +100,8 @@ Gnn::Gnn(const Options& options, const BuildContext& context)
                                                   : options.reentry_s,
                options.reentry_reach_m, options.reentry_speed_mps) {
   if (options_.max_count < options_.confirm) {
-    Diagnostic fault;
-    fault.pointer = "/max_count";
-    fault.message = "must be at least 'confirm': a counter that stops below it confirms nobody";
-    throw UserError(fault);
+    throw UserError(fault_at(
+        "/max_count", "must be at least 'confirm': a counter that stops below it confirms nobody"));
   }
 }
 

@@ -59,17 +59,11 @@ struct Measured {
 BoxGround::BoxGround(const BoxGroundOptions& options, std::shared_ptr<const Scene> scene)
     : options_(options), scene_(std::move(scene)), curve_(options.probability) {
   if (options_.min_height_ratio >= options_.max_height_ratio) {
-    Diagnostic fault;
-    fault.pointer = "/min_height_ratio";
-    fault.message = "must be below max_height_ratio";
-    throw UserError(fault);
+    throw UserError(fault_at("/min_height_ratio", "must be below max_height_ratio"));
   }
   const GroundArea area = grown(scene_->area, options_.margin_m);
   if ((area.min_m.array() > area.max_m.array()).any()) {
-    Diagnostic fault;
-    fault.pointer = "/margin_m";
-    fault.message = "leaves nothing of the scene's area";
-    throw UserError(fault);
+    throw UserError(fault_at("/margin_m", "leaves nothing of the scene's area"));
   }
 }
 

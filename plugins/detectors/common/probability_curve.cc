@@ -10,10 +10,7 @@ namespace plaza {
 namespace {
 
 [[noreturn]] void refuse(std::size_t index, const std::string& message) {
-  Diagnostic fault;
-  fault.pointer = "/probability/" + std::to_string(index);
-  fault.message = message;
-  throw UserError(fault);
+  throw UserError(fault_at("/probability/" + std::to_string(index), message));
 }
 
 }  // namespace
@@ -35,10 +32,7 @@ ProbabilityCurve::ProbabilityCurve(std::span<const std::vector<double>> points) 
     probabilities_.push_back(probability);
   }
   if (scores_.empty()) {
-    Diagnostic fault;
-    fault.pointer = "/probability";
-    fault.message = "needs at least one [score, probability] point";
-    throw UserError(fault);
+    throw UserError(fault_at("/probability", "needs at least one [score, probability] point"));
   }
 }
 

@@ -10,13 +10,6 @@
 namespace plaza {
 namespace {
 
-[[noreturn]] void refuse(const std::string& pointer, const std::string& message) {
-  Diagnostic fault;
-  fault.pointer = pointer;
-  fault.message = message;
-  throw UserError(fault);
-}
-
 GroundArea searched_area(const Scene& scene, double margin_m) {
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
   return {.min_m = scene.area.min_m - margin, .max_m = scene.area.max_m + margin};
@@ -26,22 +19,25 @@ StateGrid make_grid(const HierarchicalGrid::Options& o, const Scene& scene) {
   int divisor = 1;
   for (int level = 1; level < o.levels && divisor <= o.cells; ++level) divisor *= o.branching;
   if (o.cells % divisor != 0) {
-    refuse("/cells", "must be divisible by branching^(levels - 1), which is " +
-                         std::to_string(divisor) + ", so that every cell has one parent");
+    throw UserError(fault_at("/cells", "must be divisible by branching^(levels - 1), which is " +
+                                           std::to_string(divisor) +
+                                           ", so that every cell has one parent"));
   }
   return StateGrid(searched_area(scene, o.margin_m), o.cells, o.levels, o.branching);
 }
 
 std::vector<Witness> make_witnesses(const std::vector<InputReference>& inputs) {
   if (inputs.empty()) {
-    refuse("/modalities", "is empty: name at least one modality, such as { \"from\": \"edges\" }");
+    throw UserError(fault_at(
+        "/modalities", "is empty: name at least one modality, such as { \"from\": \"edges\" }"));
   }
   std::vector<Witness> witnesses;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     auto modality = std::dynamic_pointer_cast<const Modality>(inputs[i].producer);
     if (!modality) {
-      refuse("/modalities/" + std::to_string(i) + "/from",
-             "'" + inputs[i].from + "' is no modality: it can't compare silhouettes with images");
+      throw UserError(fault_at(
+          "/modalities/" + std::to_string(i) + "/from",
+          "'" + inputs[i].from + "' is no modality: it can't compare silhouettes with images"));
     }
     witnesses.push_back({std::move(modality), inputs[i].fields.value("weight", 1.0)});
   }
@@ -62,9 +58,10 @@ HierarchicalGrid::HierarchicalGrid(const Options& options, const BuildContext& c
       hierarchy_(grid_, *scene_, options.sizes) {
   for (const InputReference& input : context.inputs("modalities")) slots_.push_back(input.slot);
   if (options.inference != Inference::kIndependent && options.maxima == Maxima::kAll) {
-    refuse("/maxima",
-           "\"all\" needs \"inference\": \"independent\": who is inferred together is "
-           "no maximum of one surface");
+    throw UserError(
+        fault_at("/maxima",
+                 "\"all\" needs \"inference\": \"independent\": who is inferred together is "
+                 "no maximum of one surface"));
   }
 }
 

@@ -61,10 +61,7 @@ HogDetector::HogDetector(const Options& options, const BuildContext& context)
     : options_(options), scene_(context.scene), ground_(options, context.scene) {
   if (options_.stride_px % 4 != 0) {
     // windows lie on a grid of 8-pixel cells; in between, OpenCV caches blocks in steps of 4
-    Diagnostic fault;
-    fault.pointer = "/stride_px";
-    fault.message = "must be a multiple of 4";
-    throw UserError(fault);
+    throw UserError(fault_at("/stride_px", "must be a multiple of 4"));
   }
   hog_.setSVMDetector(cv::HOGDescriptor::getDefaultPeopleDetector());
   for (const Camera& camera : scene_->cameras) {

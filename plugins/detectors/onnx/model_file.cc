@@ -12,10 +12,7 @@ namespace plaza {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) {
-  Diagnostic fault;
-  fault.pointer = "/model";
-  fault.message = message;
-  throw UserError(fault);
+  throw UserError(fault_at("/model", message));
 }
 
 /// One field of a protocol buffer message: a number, or bytes (a text, a list, a message).

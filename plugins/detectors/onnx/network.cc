@@ -82,13 +82,6 @@ void spread_factors(cv::dnn::Net& net, const TensorShape& input) {
   }
 }
 
-UserError fault(const std::string& pointer, const std::string& message) {
-  Diagnostic diagnostic;
-  diagnostic.pointer = pointer;
-  diagnostic.message = message;
-  return UserError(diagnostic);
-}
-
 }  // namespace
 
 /// A net of the pool, for as long as it is needed; one more is made where all are in use.
@@ -152,11 +145,11 @@ cv::dnn::Net Network::read() const {
     spread_factors(net, input_);
     return net;
   } catch (const cv::Exception& error) {
-    throw fault("/model",
-                "OpenCV " CV_VERSION " can't use " + file_.string() + ", it says " +
-                    words_of(error) +
-                    "; export the model again, simplified and with operator set 12, and without "
-                    "suppression or other steps behind the network (docs/onnx.md)");
+    throw UserError(fault_at(
+        "/model", "OpenCV " CV_VERSION " can't use " + file_.string() + ", it says " +
+                      words_of(error) +
+                      "; export the model again, simplified and with operator set 12, and without "
+                      "suppression or other steps behind the network (docs/onnx.md)"));
   }
 }
 
@@ -169,11 +162,11 @@ std::vector<Network::Output> Network::outputs() const {
     borrowed.net().setInput(cv::Mat(input_, CV_32F, cv::Scalar(0)));
     borrowed.net().forward(tensors, names);
   } catch (const cv::Exception& error) {
-    throw fault("/input_size",
-                "OpenCV " CV_VERSION " can't run " + file_.string() + " on an input of " +
-                    to_string(input_) + ", it says " + words_of(error) +
-                    "; give the size that the model was exported for, or export it again, "
-                    "simplified and with operator set 12 (docs/onnx.md)");
+    throw UserError(fault_at(
+        "/input_size", "OpenCV " CV_VERSION " can't run " + file_.string() + " on an input of " +
+                           to_string(input_) + ", it says " + words_of(error) +
+                           "; give the size that the model was exported for, or export it again, "
+                           "simplified and with operator set 12 (docs/onnx.md)"));
   }
   std::vector<Output> outputs;
   for (std::size_t i = 0; i < tensors.size(); ++i) {

@@ -14,13 +14,6 @@ namespace {
 /// gigabytes.
 constexpr int kMostPixels = 8192;
 
-[[noreturn]] void refuse(const std::string& pointer, const std::string& message) {
-  Diagnostic fault;
-  fault.pointer = pointer;
-  fault.message = message;
-  throw UserError(fault);
-}
-
 TensorShape as_tensor_shape(const std::vector<std::int64_t>& shape) {
   TensorShape out;
   for (const std::int64_t size : shape) out.push_back(static_cast<int>(size));
@@ -134,40 +127,45 @@ cv::Size OnnxDetector::input_size(const std::string& bytes) const {
   const std::string model = options_.model.string();
   const auto inputs = declared_inputs(bytes);
   if (!inputs) {
-    refuse("/model", model + " is no ONNX model, or was cut off; copy or export it again");
+    throw UserError(
+        fault_at("/model", model + " is no ONNX model, or was cut off; copy or export it again"));
   }
   if (inputs->size() != 1) {
-    refuse("/model", model + " has " + std::to_string(inputs->size()) +
-                         " inputs; a detection network has one, an image [1, 3, height, width]");
+    throw UserError(fault_at(
+        "/model", model + " has " + std::to_string(inputs->size()) +
+                      " inputs; a detection network has one, an image [1, 3, height, width]"));
   }
   const std::vector<std::int64_t>& shape = inputs->front().shape;
   const auto fits = [&](std::size_t i, std::int64_t size) {
     return shape[i] < 0 || shape[i] == size;
   };
   if (shape.size() != 4 || !fits(0, 1) || !fits(1, 3)) {
-    refuse("/model", model + " takes " + to_string(as_tensor_shape(shape)) +
-                         "; a detection network takes one image of three channels, [1, 3, "
-                         "height, width]: export it for a batch of one, channels first");
+    throw UserError(
+        fault_at("/model", model + " takes " + to_string(as_tensor_shape(shape)) +
+                               "; a detection network takes one image of three channels, [1, 3, "
+                               "height, width]: export it for a batch of one, channels first"));
   }
   if (shape[2] > kMostPixels || shape[3] > kMostPixels) {
-    refuse("/model", model + " takes images of " + std::to_string(shape[3]) + "x" +
-                         std::to_string(shape[2]) + "; at most " + std::to_string(kMostPixels) +
-                         " pixels a side are possible: it is damaged, or export a smaller one");
+    throw UserError(fault_at(
+        "/model", model + " takes images of " + std::to_string(shape[3]) + "x" +
+                      std::to_string(shape[2]) + "; at most " + std::to_string(kMostPixels) +
+                      " pixels a side are possible: it is damaged, or export a smaller one"));
   }
   const cv::Size declared(static_cast<int>(shape[3]), static_cast<int>(shape[2]));
   if (!options_.input_size) {
     if (declared.width < 0 || declared.height < 0) {
-      refuse("/input_size", model +
-                                " leaves the size of its input open; say which, best the one that "
-                                "it was trained for, such as [640, 640]");
+      throw UserError(fault_at(
+          "/input_size", model + " leaves the size of its input open; say which, best the one that "
+                                 "it was trained for, such as [640, 640]"));
     }
     return declared;
   }
   const cv::Size wanted(options_.input_size->at(0), options_.input_size->at(1));
   if (!fits(3, wanted.width) || !fits(2, wanted.height)) {
-    refuse("/input_size", model + " takes images of " + size_text(declared) + ", not " +
-                              size_text(wanted) +
-                              "; leave \"input_size\" out, or export the model for that size");
+    throw UserError(fault_at("/input_size",
+                             model + " takes images of " + size_text(declared) + ", not " +
+                                 size_text(wanted) +
+                                 "; leave \"input_size\" out, or export the model for that size"));
   }
   return wanted;
 }
@@ -198,17 +196,18 @@ void OnnxDetector::choose_output(Loaded& loaded) const {
     }
   }
   if (!named) {
-    refuse("/output", model + " has no output \"" + options_.output.value_or("") + "\"; it has " +
-                          listed(outputs));
+    throw UserError(fault_at("/output", model + " has no output \"" + options_.output.value_or("") +
+                                            "\"; it has " + listed(outputs)));
   }
   if (fitting.empty()) {
-    refuse("/head", model + " has no output to read" + faults +
-                        "; say by \"head\" and \"person_class\" what the model gives, or export it "
-                        "with one of these heads (docs/onnx.md)");
+    throw UserError(fault_at(
+        "/head", model + " has no output to read" + faults +
+                     "; say by \"head\" and \"person_class\" what the model gives, or export it "
+                     "with one of these heads (docs/onnx.md)"));
   }
   if (fitting.size() > 1) {
-    refuse("/output",
-           model + " has several outputs that fit: " + listed(outputs) + "; name one of them");
+    throw UserError(fault_at("/output", model + " has several outputs that fit: " +
+                                            listed(outputs) + "; name one of them"));
   }
   loaded.output = fitting.front().first->name;
   loaded.head = fitting.front().second;

@@ -54,11 +54,7 @@ Diagnostics Summary::do_check() const {
     if (fault.empty() && std::filesystem::path(name).extension() != extension) {
       fault = "'" + name + "' must end in " + extension;
     }
-    if (fault.empty()) return;
-    Diagnostic diagnostic;
-    diagnostic.pointer = pointer;
-    diagnostic.message = fault;
-    faults.push_back(diagnostic);
+    if (!fault.empty()) faults.push_back(fault_at(pointer, fault));
   };
   check_name("/file", options_.file, ".md");
   check_name("/plan", options_.plan, ".png");

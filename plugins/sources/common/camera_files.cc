@@ -37,13 +37,6 @@ std::string missing_file_remedy(const std::filesystem::path& file) {
 
 }  // namespace
 
-Diagnostic fault_at(std::string pointer, std::string message) {
-  Diagnostic fault;
-  fault.pointer = std::move(pointer);
-  fault.message = std::move(message);
-  return fault;
-}
-
 std::string entry_pointer(const std::string& parameter, const std::string& camera) {
   std::string pointer = "/" + parameter + "/";
   for (const char c : camera) {

@@ -21,9 +21,6 @@ namespace plaza::sources {
 /// A parameter "files": { CAMERA: ... } as every source has it.
 using CameraPaths = std::map<std::string, std::filesystem::path>;
 
-/// A fault at a place inside the component, as Component::check() gives it.
-Diagnostic fault_at(std::string pointer, std::string message);
-
 /// JSON pointer of one camera's entry, "/files/view1"; "~" and "/" in names are escaped (RFC 6901).
 std::string entry_pointer(const std::string& parameter, const std::string& camera);
 

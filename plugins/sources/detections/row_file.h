@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "plaza/core/error.h"
-#include "plugins/sources/common/camera_files.h"
 
 namespace plaza::sources {
 

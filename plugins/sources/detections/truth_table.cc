@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "plaza/geometry/angle.h"
-#include "plugins/sources/common/camera_files.h"
 
 namespace plaza::sources {
 namespace {

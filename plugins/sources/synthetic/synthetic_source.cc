@@ -108,8 +108,7 @@ Declaration<SyntheticSource::Options> SyntheticSource::declare() {
   p.value("lost_cameras", &Options::lost_cameras)
       .meaning(
           "cameras that stop giving images within the clip; their view is then empty, and the "
-          "truth "
-          "goes on telling what they would have seen");
+          "truth goes on telling what they would have seen");
   p.value("lost_from_s", &Options::lost_from_s)
       .unit("s")
       .at_least(0)

@@ -1,6 +1,15 @@
 #include "plaza/core/diagnostic.h"
 
+#include <utility>
+
 namespace plaza {
+
+Diagnostic fault_at(std::string pointer, std::string message) {
+  Diagnostic fault;
+  fault.pointer = std::move(pointer);
+  fault.message = std::move(message);
+  return fault;
+}
 
 std::string to_string(const Diagnostic& diagnostic) {
   std::string text;

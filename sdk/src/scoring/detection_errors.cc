@@ -17,10 +17,7 @@ constexpr double kApart = std::numeric_limits<double>::infinity();
 using Polygon = std::vector<Eigen::Vector2d>;
 
 [[noreturn]] void refuse_occluder(const std::string& pointer, const std::string& message) {
-  Diagnostic fault;
-  fault.pointer = "/occluders/" + pointer;
-  fault.message = message;
-  throw UserError(fault);
+  throw UserError(fault_at("/occluders/" + pointer, message));
 }
 
 Polygon polygon_from(const std::vector<std::vector<double>>& corners, const std::string& pointer) {

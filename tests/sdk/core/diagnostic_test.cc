@@ -16,6 +16,12 @@ Diagnostic make(std::string file, int line, int column, std::string pointer, std
   return d;
 }
 
+TEST(DiagnosticTest, AFaultOfAValueHasNoFileYet) {
+  EXPECT_EQ(fault_at("/sizes/1", "must be positive"),
+            make("", 0, 0, "/sizes/1", "must be positive"));
+  EXPECT_EQ(to_string(fault_at("/sizes/1", "must be positive")), "/sizes/1: must be positive");
+}
+
 TEST(DiagnosticTest, NamesPlacePointerAndMessage) {
   EXPECT_EQ(to_string(make("p.json", 12, 7, "/nodes/1/sigma_pxx", "unknown parameter")),
             "p.json:12:7: /nodes/1/sigma_pxx: unknown parameter");

@@ -27,6 +27,10 @@ struct Diagnostic {
 
 using Diagnostics = std::vector<Diagnostic>;
 
+/// A fault of the value at `pointer`, a parameter of a component ("/model") or a value in one
+/// ("/sizes/1"); whoever reads the file adds where that is.
+PLAZA_API Diagnostic fault_at(std::string pointer, std::string message);
+
 /// "pipeline.json:12:7: /nodes/1/sigma_pxx: unknown parameter ...", leaving out what is not known.
 PLAZA_API std::string to_string(const Diagnostic& diagnostic);
 
