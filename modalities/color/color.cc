@@ -47,9 +47,11 @@ double scale_of(double occupancy_sigma) { return -0.5 / (occupancy_sigma * occup
 ColorModality::ColorModality(const Options& options, const BuildContext& context)
     : Modality(context),
       options_(options),
+      shrink_(options.shrink),
       parts_(read_body_parts(options.parts)),
       learners_(context.scene->cameras.size(),
                 color::BackgroundLearner(static_cast<std::size_t>(options.background_samples))) {
+  if (shrink_.check(*context.scene).empty()) small_ = shrink_(context.scene);  // else check() tells
   if (!parts_.empty()) {
     in_parts_.emplace(color::PartJudgement{.mixture = PartMixture(parts_),
                                            .least_visible = options.least_visible,
@@ -58,16 +60,21 @@ ColorModality::ColorModality(const Options& options, const BuildContext& context
 }
 
 Diagnostics ColorModality::do_check() const {
-  return options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
+  Diagnostics faults = shrink_.check(scene());
+  if (options_.device == Device::kOpencl) {
+    for (Diagnostic& fault : opencl::check_device()) faults.push_back(std::move(fault));
+  }
+  return faults;
 }
 
-Modality::Prepared ColorModality::do_prepare(const cv::Mat& image, std::size_t camera,
+Modality::Prepared ColorModality::do_prepare(const cv::Mat& full, std::size_t camera,
                                              const Past& past) const {
   if (views_.empty()) throw InternalError("the background has not been learned yet");
+  const cv::Mat image = shrink_(full);
   const View& view = views_[camera];
   if (!view.ground) {
     return {std::make_shared<ColorEvidence>(ColorEvidence::State::kNoBackground, image,
-                                            color::Segmentation(), nullptr, view.blind),
+                                            color::Segmentation(), nullptr, view.blind, shrink_),
             cv::Mat()};
   }
   color::Segmented seen =
@@ -81,22 +88,23 @@ Modality::Prepared ColorModality::do_prepare(const cv::Mat& image, std::size_t c
   const cv::Mat mask = usable ? segmentation.mask : cv::Mat();
   return {std::make_shared<ColorEvidence>(
               usable ? ColorEvidence::State::kUsable : ColorEvidence::State::kOtherBackground,
-              image, std::move(segmentation), seen.ground->background, view.blind),
-          mask, std::move(seen.memory)};
+              image, std::move(segmentation), seen.ground->background, view.blind, shrink_),
+          shrink_.back(mask), std::move(seen.memory)};
 }
 
 std::unique_ptr<TemplateBatch> ColorModality::do_sample(const ShapeModel& model,
                                                         std::span<const Pose> poses,
                                                         std::size_t camera) const {
-  const Camera& c = scene().cameras[camera];
+  const Camera& c = small_->cameras[camera];
   auto batch = std::make_unique<color::SpanTemplates>(cv::Size(c.width(), c.height()),
                                                       std::max<std::size_t>(parts_.size(), 1));
   const color::RingShape ring{.gap = options_.gap, .width = options_.ring};
   for (const Pose& pose : poses) {
+    const Silhouette silhouette = shrink_(model.silhouette(pose, scene().cameras[camera]));
     if (parts_.empty()) {
-      batch->add(model.silhouette(pose, c), ring);
+      batch->add(silhouette, ring);
     } else {
-      batch->add(model.silhouette(pose, c), ring, BodyCuts(parts_, model.body(), pose, c));
+      batch->add(silhouette, ring, BodyCuts(parts_, model.body(), pose, c));
     }
   }
   return batch;
@@ -182,7 +190,7 @@ void ColorModality::do_learn(const FrameSet& frames) {
       error.add_context({.component = {}, .frame = {}, .camera = camera.name()});
       throw error;
     }
-    learners_[c].add(image);
+    learners_[c].add(shrink_(image));
   }
 }
 
@@ -222,10 +230,10 @@ void ColorModality::do_load(std::istream& in) {
   }
   for (std::size_t c = 0; c < backgrounds.size(); ++c) {
     const cv::Mat& image = backgrounds[c].image;
-    const Camera& camera = scene().cameras[c];
+    const Camera& camera = small_->cameras[c];
     if (image.empty() || (image.cols == camera.width() && image.rows == camera.height())) continue;
     throw UserError("the stored background of camera '" + camera.name() + "' is " +
-                    size_text(image.cols, image.rows) + ", the camera is " +
+                    size_text(image.cols, image.rows) + ", images are looked at in " +
                     size_text(camera.width(), camera.height()) + "; it has to be learned again");
   }
   use(std::move(backgrounds));
@@ -269,10 +277,10 @@ void ColorModality::use(std::vector<color::Background> backgrounds) {
   std::vector<View> views(backgrounds.size());
   parallel_for(views.size(), [&](std::size_t c) {
     View& view = views[c];
-    view.blind = occluded(scene(), scene().cameras[c]);
+    view.blind = occluded(*small_, small_->cameras[c]);
     if (shapes().any()) {
       view.scale =
-          std::make_shared<const BodyScale>(scene().cameras[c], scene().area, scene().body);
+          std::make_shared<const BodyScale>(small_->cameras[c], scene().area, scene().body);
     }
     if (!backgrounds[c].empty()) view.ground = make_ground(std::move(backgrounds[c]));
   });

@@ -13,6 +13,7 @@
 #include "modalities/color/segmenter.h"
 #include "modalities/color/shape_analysis.h"
 #include "modalities/common/body_parts.h"
+#include "modalities/common/shrink.h"
 #include "plaza/component/declaration.h"
 #include "plaza/component/learner.h"
 
@@ -45,6 +46,7 @@ class ColorModality final : public Modality, private Learner {
   enum class Learning { kPeopleFree, kMedian };
   enum class Device { kCpu, kOpencl };
   struct Options {
+    int shrink = 1;
     double darkness = 100;
     double least_noise = 2.5;
     double threshold = 4;
@@ -106,6 +108,8 @@ class ColorModality final : public Modality, private Learner {
   std::shared_ptr<const color::Ground> make_ground(color::Background background) const;
 
   Options options_;
+  Shrink shrink_;
+  std::shared_ptr<const Scene> small_;              ///< in images as they are looked at
   std::vector<BodyPart> parts_;                     ///< none: bodies in one piece
   std::optional<color::PartJudgement> in_parts_;    ///< where there are
   std::vector<color::BackgroundLearner> learners_;  ///< [camera]

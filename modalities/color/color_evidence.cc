@@ -33,8 +33,9 @@ cv::Mat strength_picture(const cv::Mat& strength) {
 
 ColorEvidence::ColorEvidence(State state, cv::Mat image, Segmentation segmentation,
                              std::shared_ptr<const Background> background,
-                             std::shared_ptr<const Blind> blind)
+                             std::shared_ptr<const Blind> blind, Shrink shrink)
     : state_(state),
+      shrink_(shrink),
       image_(std::move(image)),
       segmentation_(std::move(segmentation)),
       background_(std::move(background)),
@@ -50,6 +51,7 @@ ColorEvidence::ColorEvidence(State state, cv::Mat image, Segmentation segmentati
 
 ColorEvidence::ColorEvidence(const ColorEvidence& other, Patches explained)
     : state_(other.state_),
+      shrink_(other.shrink_),
       image_(other.image_),
       segmentation_(other.segmentation_),
       background_(other.background_),
@@ -79,7 +81,7 @@ std::vector<Picture> ColorEvidence::pictures() const {
          state_ == State::kOtherBackground ? "foreground (not used: nearly all)" : "foreground",
          coloured(segmentation_.mask)});
   }
-  return pictures;
+  return shrink_.back(std::move(pictures));
 }
 
 TemplateCounts ColorEvidence::seen(const SpanTemplates& templates, std::size_t piece,

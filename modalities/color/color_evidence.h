@@ -13,6 +13,7 @@
 #include "modalities/color/segmenter.h"
 #include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
+#include "modalities/common/shrink.h"
 #include "plaza/data/evidence.h"
 
 namespace plaza::color {
@@ -35,14 +36,16 @@ class ColorEvidence final : public Evidence {
 
   /// Neither matrix is copied or written to. `background` may be null where there is none.
   ColorEvidence(State state, cv::Mat image, Segmentation segmentation,
-                std::shared_ptr<const Background> background, std::shared_ptr<const Blind> blind);
+                std::shared_ptr<const Background> background, std::shared_ptr<const Blind> blind,
+                Shrink shrink = Shrink(1));
 
   State state() const { return state_; }
   const cv::Mat& mask() const {
     return segmentation_.mask;
   }  ///< the segmentation's, 8-bit, 0 or 255
   const cv::Mat& strength() const { return segmentation_.strength; }  ///< 16-bit, 64 steps are 1
-  /// 8-bit CIE-Lab (OpenCV's scaling: L * 255 / 100, a + 128, b + 128), of the image's size.
+  /// 8-bit CIE-Lab (OpenCV's scaling: L * 255 / 100, a + 128, b + 128), of the size
+  /// that the image is looked at in.
   const cv::Mat& lab() const;
   std::vector<Picture> pictures() const override;
 
@@ -81,6 +84,7 @@ class ColorEvidence final : public Evidence {
   TemplateCounts seen(const SpanTemplates& templates, std::size_t piece, CountMemo& memo) const;
 
   State state_;
+  Shrink shrink_;
   cv::Mat image_;
   Segmentation segmentation_;
   std::shared_ptr<const Background> background_;

@@ -56,9 +56,10 @@ ViewBackground make_background(const cv::Mat1b& edges, const cv::Mat2f& gradient
 }
 
 BackgroundLearner::BackgroundLearner(const BackgroundOptions& options,
-                                     std::shared_ptr<const Scene> scene)
+                                     std::shared_ptr<const Scene> scene, Shrink shrink)
     : options_(options),
       scene_(std::move(scene)),
+      shrink_(shrink),
       pupils_(scene_->cameras.size()),
       views_(scene_->cameras.size()) {}
 
@@ -85,7 +86,7 @@ void BackgroundLearner::do_learn(const FrameSet& frames) {
       error.add_context({.component = {}, .frame = {}, .camera = camera.name()});
       throw error;
     }
-    learn_view(image, pupils_[c]);
+    learn_view(shrink_(image), pupils_[c]);
   });
 }
 
@@ -145,10 +146,12 @@ void BackgroundLearner::do_finish(std::int64_t seen) {
   pupils_.assign(pupils_.size(), {});
 }
 
-void BackgroundLearner::do_save(std::ostream& out) const { save_backgrounds(out, *scene_, views_); }
+void BackgroundLearner::do_save(std::ostream& out) const {
+  save_backgrounds(out, *shrink_(scene_), views_);
+}
 
 void BackgroundLearner::do_load(std::istream& in) {
-  views_ = load_backgrounds(in, *scene_, options_.tolerance_px);
+  views_ = load_backgrounds(in, *shrink_(scene_), options_.tolerance_px);
 }
 
 }  // namespace plaza::edges

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "modalities/common/shrink.h"
 #include "modalities/edges/edge_image.h"
 #include "plaza/component/learner.h"
 #include "plaza/geometry/scene.h"
@@ -45,7 +46,9 @@ class BackgroundLearner final : public Learner {
  public:
   static constexpr std::size_t kMedianFrames = 64;
 
-  BackgroundLearner(const BackgroundOptions& options, std::shared_ptr<const Scene> scene);
+  /// Of the scene's images, looked at in that size.
+  BackgroundLearner(const BackgroundOptions& options, std::shared_ptr<const Scene> scene,
+                    Shrink shrink = Shrink(1));
 
   /// Of view `camera`; null before finish() or load().
   std::shared_ptr<const ViewBackground> view(std::size_t camera) const { return views_.at(camera); }
@@ -72,6 +75,7 @@ class BackgroundLearner final : public Learner {
 
   BackgroundOptions options_;
   std::shared_ptr<const Scene> scene_;
+  Shrink shrink_;
   std::vector<Pupil> pupils_;
   std::vector<std::shared_ptr<const ViewBackground>> views_;
 };

@@ -49,6 +49,7 @@ struct Edges::Workshop {
 Edges::Edges(const Options& options, const BuildContext& context)
     : Modality(context),
       options_(options),
+      shrink_(options.shrink),
       edge_options_{.method = options.method,
                     .low = options.low_threshold,
                     .high = options.high_threshold,
@@ -73,10 +74,12 @@ Edges::Edges(const Options& options, const BuildContext& context)
     background.tolerance_px = options.background_tolerance_px;
     background.sensitivity = options.background_sensitivity;
     background.edges = edge_options_;
-    learner_ = std::make_unique<BackgroundLearner>(background, context.scene);
+    learner_ = std::make_unique<BackgroundLearner>(background, context.scene, shrink_);
   }
+  if (!shrink_.check(*context.scene).empty()) return;  // check() tells
+  const std::shared_ptr<const Scene> small = shrink_(context.scene);
   const double gate_px = kGateSigmas * options.sigma_px;
-  for (const Camera& camera : context.scene->cameras) {
+  for (const Camera& camera : small->cameras) {
     View view;
     view.layout = std::make_shared<const PlaneLayout>(cv::Size(camera.width(), camera.height()),
                                                       make_directions(options.directions, gate_px));
@@ -94,7 +97,11 @@ Edges::Edges(const Options& options, const BuildContext& context)
 Edges::~Edges() = default;
 
 Diagnostics Edges::do_check() const {
-  return options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
+  Diagnostics faults = shrink_.check(scene());
+  if (options_.device == Device::kOpencl) {
+    for (Diagnostic& fault : opencl::check_device()) faults.push_back(std::move(fault));
+  }
+  return faults;
 }
 
 Learner* Edges::learner() { return learner_.get(); }
@@ -120,7 +127,7 @@ Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
   }
   const auto workshop =
       workshops_[camera]->take([&] { return std::make_unique<Workshop>(view.layout); });
-  find_edges(image, edge_options_, workshop->image);
+  find_edges(shrink_(image), edge_options_, workshop->image);
 
   auto block = take_block(view);
   block->labels.clear();
@@ -130,7 +137,7 @@ Modality::Prepared Edges::do_prepare(const cv::Mat& image, std::size_t camera,
   workshop->transform.run(block->points, block->planes);
   const bool blank = unknown || is_blank(workshop->image);
   return {std::make_shared<const EdgeEvidence>(view.layout, std::move(background), std::move(block),
-                                               blank),
+                                               blank, shrink_),
           {}};
 }
 
@@ -139,7 +146,7 @@ std::unique_ptr<TemplateBatch> Edges::do_sample(const ShapeModel& model,
                                                 std::size_t camera) const {
   auto templates = std::make_unique<EdgeTemplates>(views_[camera].layout);
   for (const Pose& pose : poses) {
-    templates->add(model.silhouette(pose, scene().cameras[camera]), template_options_);
+    templates->add(shrink_(model.silhouette(pose, scene().cameras[camera])), template_options_);
   }
   return templates;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modalities/common/opencl.h"
+#include "modalities/common/shrink.h"
 #include "modalities/edges/background.h"
 #include "modalities/edges/evidence.h"
 #include "modalities/edges/opencl_matcher.h"
@@ -28,6 +29,7 @@ enum class Device { kCpu, kOpencl };
 class Edges final : public Modality {
  public:
   struct Options {
+    int shrink = 1;
     EdgeMethod method = EdgeMethod::kCanny;
     double low_threshold = 60;
     double high_threshold = 120;
@@ -88,6 +90,7 @@ class Edges final : public Modality {
   const View& view_of(const EdgeEvidence& evidence) const;
 
   Options options_;
+  Shrink shrink_;
   EdgeOptions edge_options_;
   SegmentationOptions segmentation_;
   TemplateOptions template_options_;

@@ -133,7 +133,7 @@ std::vector<Picture> EdgeEvidence::pictures() const {
                       picture_of(labels, kForeground, kExplained, kSegmented)});
   pictures.push_back({"directions", "where an edge is nearest, by colour", directions_of(*this)});
   pictures.push_back({"transform", "the transform, one tile per direction", transform_of(*this)});
-  return pictures;
+  return shrink_.back(std::move(pictures));
 }
 
 }  // namespace plaza::edges

@@ -6,6 +6,7 @@
 
 #include "modalities/common/memo.h"
 #include "modalities/common/opencl.h"
+#include "modalities/common/shrink.h"
 #include "modalities/edges/background.h"
 #include "modalities/edges/fast_transform.h"
 #include "modalities/edges/hidden_region.h"
@@ -32,8 +33,9 @@ class EdgeEvidence final : public Evidence {
   /// or its background is unknown; nothing can be told from it.
   EdgeEvidence(std::shared_ptr<const PlaneLayout> layout,
                std::shared_ptr<const ViewBackground> background, Pool<EvidenceBlock>::Handle block,
-               bool blank)
-      : layout_(std::move(layout)),
+               bool blank, Shrink shrink = Shrink(1))
+      : shrink_(shrink),
+        layout_(std::move(layout)),
         background_(std::move(background)),
         block_(std::move(block)),
         blank_(blank) {}
@@ -84,6 +86,7 @@ class EdgeEvidence final : public Evidence {
  private:
   EdgeEvidence(const EdgeEvidence&) = default;
 
+  Shrink shrink_;
   std::shared_ptr<const PlaneLayout> layout_;
   std::shared_ptr<const ViewBackground> background_;
   std::shared_ptr<const EvidenceBlock> block_;

@@ -98,7 +98,12 @@ class ColorTest : public ::testing::Test {
 };
 
 TEST_F(ColorTest, KeepsTheContractOfModalities) {
-  contract::expect_kept(contract::subject_of<ColorModality>());
+  for (const int shrink : {1, 2}) {
+    contract::Trial trial;
+    trial.label = "shrink " + std::to_string(shrink);
+    trial.values = {{"shrink", shrink}};
+    contract::expect_kept(contract::subject_of<ColorModality>(), trial);
+  }
 }
 
 TEST_F(ColorTest, PeopleFillTheirSilhouettes) {
@@ -203,6 +208,41 @@ TEST_F(ColorTest, PixelsBehindOccludersDontCount) {
   EXPECT_TRUE(std::isnan(matched(*strict, strict->prepare(hidden, 0).evidence, {at(20, 15)})[0]));
 }
 
+TEST_F(ColorTest, LooksAtSmallerImagesAndGivesMasksOfTheirOwnSize) {
+  resize(160, 120);
+  const cv::Mat image = with_people({{40, 30}, {100, 60}});
+  options_.shrink = 2;
+  const auto modality = taught();
+  const auto prepared = modality->prepare(image, 0);
+  EXPECT_EQ(dynamic_cast<const ColorEvidence&>(*prepared.evidence).mask().size(), cv::Size(80, 60));
+  ASSERT_EQ(prepared.foreground.size(), image.size());
+  EXPECT_NE(prepared.foreground.at<uchar>(45, 45), 0);
+  EXPECT_EQ(prepared.foreground.at<uchar>(45, 75), 0);
+  const std::vector<double> out = matched(
+      *modality, prepared.evidence, {at(40, 30), at(46, 30), at(100, 60), at(70, 10), at(500, 0)});
+  EXPECT_GT(out[0], out[1]);
+  EXPECT_GT(out[2], out[1]);
+  EXPECT_NEAR(out[3], -0.5 / (options_.occupancy_sigma * options_.occupancy_sigma), 1e-9);
+  EXPECT_TRUE(std::isnan(out[4]));
+  // what is stored is of the smaller images, and of no others
+  std::stringstream file;
+  modality->learner()->save(file);
+  const auto restored = make();
+  restored->learner()->load(file);
+  EXPECT_TRUE(equal(restored->prepare(image, 0).foreground, prepared.foreground));
+  options_.shrink = 4;
+  file.seekg(0);
+  EXPECT_THROW(make()->learner()->load(file), UserError);
+}
+
+TEST_F(ColorTest, ImagesThatCantBeDividedAreRefused) {
+  resize(80, 61);
+  options_.shrink = 2;
+  const Diagnostics faults = make()->check();
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, "/shrink");
+}
+
 TEST_F(ColorTest, TheMaskIsThePreviousFramesPrior) {
   options_.threshold = 12;
   options_.previous = 2;
@@ -303,7 +343,7 @@ TEST_F(ColorTest, StoredBackgroundsOfAnotherSceneAreRefused) {
       EXPECT_THAT(error.what(), HasSubstr(words));
     }
   };
-  refuse("of camera 'one' is 80x60, the camera is 60x80");
+  refuse("of camera 'one' is 80x60, images are looked at in 60x80");
   auto scene = std::make_shared<Scene>(*scene_);
   scene->cameras.clear();
   scene_ = scene;

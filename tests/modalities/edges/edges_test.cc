@@ -63,6 +63,9 @@ TEST(EdgesContract, IsKept) {
       trial.label = std::string(method) + ", " + background;
       trial.values = {{"method", method}, {"background", background}, {"explains", "silhouette"}};
       contract::expect_kept(contract::subject_of<Edges>(), trial);
+      trial.label += ", shrink 2";
+      trial.values["shrink"] = 2;
+      contract::expect_kept(contract::subject_of<Edges>(), trial);
     }
   }
 }
@@ -81,6 +84,32 @@ TEST(Edges, LikelihoodPeaksWhereTheModelStands) {
   const auto values = matched(edges, *prepared.evidence, poses);
   EXPECT_GT(values[0], -0.2);
   for (std::size_t i = 1; i < values.size(); ++i) EXPECT_LT(values[i], values[0]) << i;
+}
+
+TEST(Edges, LikelihoodPeaksThereInSmallerImagesToo) {
+  const auto scene = scene_of({320, 240});
+  Edges::Options options = without_background();
+  options.shrink = 2;
+  options.sigma_px = 1.5;
+  const Edges edges(options, context_of(scene));
+  const Pose truth{{0.4, 0.2}, 0, 1};
+  const auto prepared = edges.prepare(image_of(*scene, {truth}, 6), 0);
+  EXPECT_EQ(dynamic_cast<const EdgeEvidence&>(*prepared.evidence).layout()->size(),
+            cv::Size(160, 120));
+  const auto values =
+      matched(edges, *prepared.evidence,
+              {truth, {{0.65, 0.2}, 0, 1}, {{0.15, 0.2}, 0, 1}, {{0.4, -0.3}, 0, 1}});
+  EXPECT_GT(values[0], -0.3);
+  for (std::size_t i = 1; i < values.size(); ++i) EXPECT_LT(values[i], values[0] - 0.2) << i;
+}
+
+TEST(Edges, ImagesThatCantBeDividedAreRefused) {
+  Edges::Options options = without_background();
+  options.shrink = 3;
+  const Edges edges(options, context_of(scene_of({320, 240})));
+  const Diagnostics faults = edges.check();
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, "/shrink");
 }
 
 TEST(Edges, LikelihoodIsTheFormulaOfTheThesis) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "plaza/core/diagnostic.h"
+#include "plaza/data/evidence.h"
+#include "plaza/geometry/scene.h"
+#include "plaza/geometry/silhouette.h"
+
+/// Looking at images in a smaller size, which costs less and loses little as long as people are
+/// many pixels high (thesis 4.4.5).
+namespace plaza {
+
+/// How many times smaller, along both axes. A pixel of the smaller image stands for a block of
+/// pixels, so that x and y there are (x + 0.5) / shrink - 0.5 of those of the image.
+class Shrink {
+ public:
+  static constexpr int kMost = 8;
+
+  /// From 1, which leaves everything as it is, to kMost; throws std::invalid_argument.
+  explicit Shrink(int times);
+
+  int times() const { return times_; }
+  /// Faults at "/shrink": cameras whose images aren't a whole number of blocks wide and high.
+  Diagnostics check(const Scene& scene) const;
+  /// The scene in the smaller images: its cameras and occluders.
+  std::shared_ptr<const Scene> operator()(std::shared_ptr<const Scene> scene) const;
+  /// Each pixel the mean of its block. Not a copy where nothing is shrunk.
+  cv::Mat operator()(const cv::Mat& image) const;
+  /// Pixels that at least half of their block belongs to, and one contour point of as many as a
+  /// block is wide.
+  Silhouette operator()(Silhouette silhouette) const;
+  /// A mask or picture in the image's size: every pixel as its block is.
+  cv::Mat back(const cv::Mat& small) const;
+  /// Pictures of what was seen in the smaller image, in the image's size.
+  std::vector<Picture> back(std::vector<Picture> pictures) const;
+
+ private:
+  int times_;
+};
+
+}  // namespace plaza
