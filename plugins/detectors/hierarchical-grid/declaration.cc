@@ -120,6 +120,11 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
       .meaning(
           "joint inference: places with less score while nobody is accounted for are not judged "
           "again as people are accepted, which saves most of the time; unset: all are");
+  p.value("doubt_score", &Options::doubt_score)
+      .meaning(
+          "joint inference: when the weakest scores less in the end, all is tried without; if more "
+          "people are found then, and all together score better, it is they who stay: two who hide "
+          "each other are easily taken for one between them; unset: nobody is doubted");
   p.value("rounds", &Options::rounds)
       .at_least(0)
       .at_most(100)

@@ -92,6 +92,7 @@ void HierarchicalGrid::sample() {
             .accept_score = mean_field ? options_.accept_score.value_or(options_.min_score / 2)
                                        : options_.min_score,
             .watch_score = options_.watch_score,
+            .doubt_score = options_.doubt_score,
             .mean_field = mean_field ? &curve_ : nullptr,
             .most = options_.most,
             .rounds = options_.rounds,

@@ -41,6 +41,7 @@ class HierarchicalGrid final : public Detector, private Learner {
     Inference inference = Inference::kIndependent;
     std::optional<double> accept_score;
     std::optional<double> watch_score;
+    std::optional<double> doubt_score;
     int rounds = 3;
     double reach_m = 0.5;
     bool occlusion_order = false;

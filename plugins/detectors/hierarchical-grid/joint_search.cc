@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "plugins/detectors/hierarchical-grid/own_likelihood.h"
@@ -94,6 +95,48 @@ class JointSearch::Scenario {
     refresh(std::move(cells));
   }
 
+  /// Accepts, places and judges until nothing changes or all rounds are over.
+  void settle() {
+    accept();
+    for (int round = 0; round < s_.options_.rounds; ++round) {
+      if (!judge_again(true)) break;
+      take_away_again();
+      accept();
+    }
+    judge_again(false);
+  }
+
+  std::size_t size() const { return people_.size(); }
+
+  /// Where whoever scores least stands, if that is less than `doubt_score`.
+  std::optional<CellIndex> weakest() const {
+    const auto weakest = std::min_element(
+        people_.begin(), people_.end(),
+        [](const Entry& a, const Entry& b) { return a.person.score < b.person.score; });
+    const bool doubted = weakest != people_.end() && s_.options_.doubt_score &&
+                         weakest->person.score < *s_.options_.doubt_score;
+    return doubted ? std::optional(weakest->person.body.cell) : std::nullopt;
+  }
+
+  /// Takes out who stands there; nobody is accepted near that place any more.
+  void leave_out(CellIndex cell) {
+    std::erase_if(people_, [&](const Entry& e) { return e.person.body.cell == cell; });
+    left_out_ = cell;
+    changed(cell);
+    take_away_again();
+  }
+
+  /// Of all people together: what they score above half of what each of them has to, so that more
+  /// and weaker people aren't worth more just for being more.
+  double worth() const {
+    double sum = 0;
+    for (const Entry& entry : people_) {
+      const double more = entry.person.score - s_.options_.min_score / 2;
+      if (more > 0) sum += more;  // unknown scores are worth nothing
+    }
+    return sum;
+  }
+
   std::vector<FoundPerson> people() && {
     std::vector<FoundPerson> out;
     for (Entry& entry : people_) {
@@ -112,16 +155,8 @@ class JointSearch::Scenario {
   };
 
   bool blocked(CellIndex cell, std::size_t by_others_than) const {
-    const int column = static_cast<int>(cell) % grid_.columns;
-    const int row = static_cast<int>(cell) / grid_.columns;
     for (std::size_t i = 0; i < people_.size(); ++i) {
-      if (i == by_others_than) continue;
-      const int c = static_cast<int>(people_[i].person.body.cell) % grid_.columns - column;
-      const int r = static_cast<int>(people_[i].person.body.cell) / grid_.columns - row;
-      const bool near = std::any_of(s_.rivals_.begin(), s_.rivals_.end(), [&](const Neighbour& n) {
-        return n.columns == c && n.rows == r;
-      });
-      if (near) return true;
+      if (i != by_others_than && s_.near(cell, people_[i].person.body.cell)) return true;
     }
     return false;
   }
@@ -134,6 +169,7 @@ class JointSearch::Scenario {
       if (best && !(surface_[i] > surface_[*best])) continue;
       if (!(s_.search_->score_of(cell, surface_[i], now_) >= s_.options_.accept_score)) continue;
       if (blocked(cell, people_.size())) continue;
+      if (left_out_ && s_.near(*left_out_, cell)) continue;
       best = cell;
     }
     return best;
@@ -294,6 +330,7 @@ class JointSearch::Scenario {
   std::vector<double> surface_;  ///< now_, smoothed
   OwnLikelihood own_;            ///< of who is being placed, by what the others leave
   std::vector<Entry> people_;
+  std::optional<CellIndex> left_out_;     ///< nobody is accepted near this place
   std::vector<char> watched_;             ///< [cell]: whether it is judged again
   std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether a move has touched it
 };
@@ -317,18 +354,29 @@ Eigen::Vector2d JointSearch::position(CellIndex cell) const {
   return grid_->position(grid_->levels() - 1, cell);
 }
 
+bool JointSearch::near(CellIndex a, CellIndex b) const {
+  const int width = grid_->finest().columns;
+  const int columns = static_cast<int>(b) % width - static_cast<int>(a) % width;
+  const int rows = static_cast<int>(b) / width - static_cast<int>(a) / width;
+  return std::any_of(rivals_.begin(), rivals_.end(),
+                     [&](const Neighbour& n) { return n.columns == columns && n.rows == rows; });
+}
+
 std::vector<FoundPerson> JointSearch::infer(const AllEvidence& evidence,
                                             const SearchResult& first) const {
-  Scenario scenario(*this, evidence, first);
-  scenario.accept();
-  for (int round = 0; round < options_.rounds; ++round) {
-    const bool moved = scenario.judge_again(true);
-    if (!moved) break;
-    scenario.take_away_again();
-    scenario.accept();
+  auto scenario = std::make_unique<Scenario>(*this, evidence, first);
+  scenario->settle();
+  if (const std::optional<CellIndex> weakest = scenario->weakest()) {
+    auto without = std::make_unique<Scenario>(*scenario);
+    without->leave_out(*weakest);
+    without->accept();
+    // otherwise at most one came for one, and places near by were climbed already
+    if (without->size() > scenario->size()) {
+      without->settle();
+      if (without->worth() > scenario->worth()) scenario = std::move(without);
+    }
   }
-  scenario.judge_again(false);
-  return std::move(scenario).people();
+  return std::move(*scenario).people();
 }
 
 }  // namespace plaza

@@ -27,6 +27,10 @@ struct FoundPerson {
 /// score enough any more; then others may be accepted again. So for some rounds, or until nothing
 /// changes.
 ///
+/// Two who hide each other may have been taken for one between them, from where no step leads to
+/// both. So whoever scores least in the end may be doubted: when more people than before are
+/// accepted without, and all together are worth more, it is those who stay.
+///
 /// In a mean field (as Fleuret et al., "Multicamera people tracking with a probabilistic occupancy
 /// map", 2008), whoever is accepted is present with a probability only, which is that of the score
 /// expected over the presence of all others, each by their own: so somebody wrongly accepted first
@@ -38,6 +42,8 @@ class JointSearch {
     double accept_score = 0;  ///< of whom is considered at all; at most min_score
     /// Places with less, by all the evidence, are nobody's, whoever is accounted for later.
     std::optional<double> watch_score;
+    /// Below it the weakest is tried without; null: nobody is.
+    std::optional<double> doubt_score;
     const ProbabilityCurve* mean_field = nullptr;  ///< of presence, by score; null: greedily
     int most = 1;                                  ///< people
     int rounds = 0;                                ///< of judging again; 0: what is accepted stays
@@ -59,6 +65,7 @@ class JointSearch {
   class Scenario;
 
   Eigen::Vector2d position(CellIndex cell) const;
+  bool near(CellIndex a, CellIndex b) const;  ///< within the rivals' reach
 
   const StateGrid* grid_;
   const GridSearch* search_;

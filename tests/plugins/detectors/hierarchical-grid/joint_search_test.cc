@@ -101,6 +101,42 @@ TEST(JointSearch, JudgingAgainMendsWhatWasAcceptedTooSoon) {
   EXPECT_LT(again.all(), once.all());
 }
 
+/// Circles of four people, who hide each other in every view.
+Errors errors_in_circles(const HierarchicalGrid::Options& options) {
+  const Rig rig(small_scene(4), options);
+  Errors sum;
+  for (const double radius_m : {0.5, 0.6, 0.7, 0.8}) {
+    for (int turn = 0; turn < 6; ++turn) {
+      std::vector<Eigen::Vector2d> people;
+      for (int i = 0; i < 4; ++i) {
+        const double angle = M_PI / 2 * i + 0.25 * turn;
+        people.push_back(radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      }
+      const auto seen = rig.draw(people, 0.02, static_cast<unsigned>(turn));
+      const Errors e = errors_of(rig.run(seen).detected.observations.items, people);
+      sum.missed += e.missed;
+      sum.invented += e.invented;
+      sum.distance_m += e.distance_m;
+    }
+  }
+  return sum;
+}
+
+TEST(JointSearch, WhoeverIsDoubtedMayBeTwo) {
+  HierarchicalGrid::Options o = options_of(Inference::kGreedy);
+  const Errors believed = errors_in_circles(o);
+  o.doubt_score = 100;
+  const Errors doubted = errors_in_circles(o);
+  EXPECT_LT(doubted.missed, believed.missed);
+  EXPECT_LT(doubted.all(), believed.all())
+      << doubted.missed << " missed and " << doubted.invented << " invented instead of "
+      << believed.missed << " and " << believed.invented << ", of 96";
+  o.doubt_score = -100;  // nobody scores so little
+  const Errors never = errors_in_circles(o);
+  EXPECT_EQ(never.all(), believed.all());
+  EXPECT_EQ(never.distance_m, believed.distance_m);
+}
+
 TEST(JointSearch, PlacesThatNothingSpeaksForNeedNotBeWatched) {
   const Errors all = errors_in_crowds(options_of(Inference::kGreedy), 3);
   HierarchicalGrid::Options o = options_of(Inference::kGreedy);
