@@ -51,7 +51,7 @@ ColorModality::ColorModality(const Options& options, const BuildContext& context
       parts_(read_body_parts(options.parts)),
       learners_(context.scene->cameras.size(),
                 color::BackgroundLearner(static_cast<std::size_t>(options.background_samples))) {
-  if (shrink_.check(*context.scene).empty()) small_ = shrink_(context.scene);  // else check() tells
+  if (shrink_.fits(*context.scene)) small_ = shrink_(context.scene);  // else check() tells
   if (!parts_.empty()) {
     in_parts_.emplace(color::PartJudgement{.mixture = PartMixture(parts_),
                                            .least_visible = options.least_visible,
@@ -60,10 +60,8 @@ ColorModality::ColorModality(const Options& options, const BuildContext& context
 }
 
 Diagnostics ColorModality::do_check() const {
-  Diagnostics faults = shrink_.check(scene());
-  if (options_.device == Device::kOpencl) {
-    for (Diagnostic& fault : opencl::check_device()) faults.push_back(std::move(fault));
-  }
+  Diagnostics faults = options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
+  shrink_.check(scene(), faults);
   return faults;
 }
 

@@ -5,13 +5,7 @@ namespace plaza {
 Declaration<ColorModality::Options> ColorModality::declare() {
   const char* const griesser = "Griesser et al. 2005";
   Parameters<Options> p;
-  p.value("shrink", &Options::shrink)
-      .at_least(1)
-      .at_most(Shrink::kMost)
-      .meaning(
-          "how many times smaller images are looked at along both axes, each pixel the mean of a "
-          "block; lengths in pixels are those of the smaller image")
-      .source("thesis 4.4.5");
+  declare_shrink(p, &Options::shrink);
   p.value("darkness", &Options::darkness)
       .unit("grey levels")
       .at_least(0)

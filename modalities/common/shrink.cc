@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -40,8 +41,13 @@ Shrink::Shrink(int times) : times_(times) {
   if (times < 1 || times > kMost) throw std::invalid_argument("shrink out of range");
 }
 
-Diagnostics Shrink::check(const Scene& scene) const {
+bool Shrink::fits(const Scene& scene) const {
   Diagnostics faults;
+  check(scene, faults);
+  return faults.empty();
+}
+
+void Shrink::check(const Scene& scene, Diagnostics& faults) const {
   for (const Camera& camera : scene.cameras) {
     if (camera.width() % times_ == 0 && camera.height() % times_ == 0) continue;
     faults.push_back(fault_at(
@@ -50,7 +56,6 @@ Diagnostics Shrink::check(const Scene& scene) const {
                        ", which can't be divided by " + std::to_string(times_) +
                        "; choose a number that divides both, 1 leaves images as they are"));
   }
-  return faults;
 }
 
 std::shared_ptr<const Scene> Shrink::operator()(std::shared_ptr<const Scene> scene) const {

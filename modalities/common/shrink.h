@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "plaza/component/declaration.h"
 #include "plaza/core/diagnostic.h"
 #include "plaza/data/evidence.h"
 #include "plaza/geometry/scene.h"
@@ -22,9 +23,10 @@ class Shrink {
   /// From 1, which leaves everything as it is, to kMost; throws std::invalid_argument.
   explicit Shrink(int times);
 
-  int times() const { return times_; }
-  /// Faults at "/shrink": cameras whose images aren't a whole number of blocks wide and high.
-  Diagnostics check(const Scene& scene) const;
+  /// Whether all cameras' images are a whole number of blocks wide and high.
+  bool fits(const Scene& scene) const;
+  /// Adds a fault at "/shrink" for every camera whose images aren't.
+  void check(const Scene& scene, Diagnostics& faults) const;
   /// The scene in the smaller images: its cameras and occluders.
   std::shared_ptr<const Scene> operator()(std::shared_ptr<const Scene> scene) const;
   /// Each pixel the mean of its block. Not a copy where nothing is shrunk.
@@ -40,5 +42,17 @@ class Shrink {
  private:
   int times_;
 };
+
+/// The parameter "shrink" of a modality.
+template <class Options>
+void declare_shrink(Parameters<Options>& parameters, int Options::*shrink) {
+  parameters.value("shrink", shrink)
+      .at_least(1)
+      .at_most(Shrink::kMost)
+      .meaning(
+          "how many times smaller images are looked at along both axes, each pixel the mean of a "
+          "block; lengths in pixels are those of the smaller image")
+      .source("thesis 4.4.5");
+}
 
 }  // namespace plaza

@@ -4,13 +4,7 @@ namespace plaza::edges {
 
 Declaration<Edges::Options> Edges::declare() {
   Parameters<Options> p;
-  p.value("shrink", &Options::shrink)
-      .at_least(1)
-      .at_most(Shrink::kMost)
-      .meaning(
-          "how many times smaller images are looked at along both axes, each pixel the mean of a "
-          "block; lengths in pixels are those of the smaller image")
-      .source("thesis 4.4.5");
+  declare_shrink(p, &Options::shrink);
   p.choice("method", &Options::method, {"canny", "sobel"})
       .meaning(
           "what counts as an edge: Canny's thinned and connected ones, or every pixel with a "

@@ -76,7 +76,7 @@ Edges::Edges(const Options& options, const BuildContext& context)
     background.edges = edge_options_;
     learner_ = std::make_unique<BackgroundLearner>(background, context.scene, shrink_);
   }
-  if (!shrink_.check(*context.scene).empty()) return;  // check() tells
+  if (!shrink_.fits(*context.scene)) return;  // check() tells
   const std::shared_ptr<const Scene> small = shrink_(context.scene);
   const double gate_px = kGateSigmas * options.sigma_px;
   for (const Camera& camera : small->cameras) {
@@ -97,10 +97,8 @@ Edges::Edges(const Options& options, const BuildContext& context)
 Edges::~Edges() = default;
 
 Diagnostics Edges::do_check() const {
-  Diagnostics faults = shrink_.check(scene());
-  if (options_.device == Device::kOpencl) {
-    for (Diagnostic& fault : opencl::check_device()) faults.push_back(std::move(fault));
-  }
+  Diagnostics faults = options_.device == Device::kOpencl ? opencl::check_device() : Diagnostics();
+  shrink_.check(scene(), faults);
   return faults;
 }
 

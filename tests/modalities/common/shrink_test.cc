@@ -37,7 +37,7 @@ double area(const Silhouette& s) {
 TEST(ShrinkTest, OnceLeavesEverythingAsItIs) {
   const Shrink once(1);
   const auto scene = scene_of({641, 479});
-  EXPECT_TRUE(once.check(*scene).empty());
+  EXPECT_TRUE(once.fits(*scene));
   EXPECT_EQ(once(scene), scene);
   const cv::Mat image(7, 5, CV_8UC3);
   EXPECT_EQ(once(image).data, image.data);
@@ -47,8 +47,10 @@ TEST(ShrinkTest, OnceLeavesEverythingAsItIs) {
 }
 
 TEST(ShrinkTest, ImagesMustBeWholeNumbersOfBlocks) {
-  EXPECT_TRUE(Shrink(4).check(*scene_of({640, 480})).empty());
-  const Diagnostics faults = Shrink(2).check(*scene_of({640, 479}));
+  EXPECT_TRUE(Shrink(4).fits(*scene_of({640, 480})));
+  EXPECT_FALSE(Shrink(2).fits(*scene_of({640, 479})));
+  Diagnostics faults;
+  Shrink(2).check(*scene_of({640, 479}), faults);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].pointer, "/shrink");
   EXPECT_THAT(faults[0].message, HasSubstr("'one' are 640x479"));
