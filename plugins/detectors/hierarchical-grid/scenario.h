@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plugins/detectors/hierarchical-grid/joint_search.h"
+#include "plugins/detectors/hierarchical-grid/own_likelihood.h"
+
+namespace plaza {
+
+/// One frame's people while they are inferred.
+class JointSearch::Scenario {
+ public:
+  Scenario(const JointSearch& search, const AllEvidence& evidence, const SearchResult& first);
+
+  void accept();
+
+  /// Whether anybody moved or went.
+  bool judge_again(bool may_change);
+
+  /// What is left when everybody has moved.
+  void take_away_again();
+
+  /// Accepts, places and judges until nothing changes or all rounds are over.
+  void settle();
+
+  std::size_t size() const { return people_.size(); }
+
+  /// Where whoever scores least stands, if that is less than `doubt_score`.
+  std::optional<CellIndex> weakest() const;
+
+  /// Takes out who stands there; nobody is accepted near that place any more.
+  void leave_out(CellIndex cell);
+
+  /// Of all people together: what they score above half of what each of them has to, so that more
+  /// and weaker people aren't worth more just for being more.
+  double worth() const;
+
+  std::vector<FoundPerson> people() &&;
+
+ private:
+  struct Entry {
+    FoundPerson person;
+    double presence = 1;  ///< probability
+    bool stale = true;    ///< somebody near has changed since this one was judged
+  };
+
+  bool blocked(CellIndex cell, std::size_t by_others_than) const;
+
+  std::optional<CellIndex> best_cell() const;
+
+  /// Judges cells again by what is left, in views where that has changed; in all views where they
+  /// were never judged.
+  void refresh(ViewCells cells);
+
+  /// Whoever could share evidence with somebody who came, moved or went there is to be judged
+  /// again.
+  void disturb(CellIndex cell);
+
+  void changed(CellIndex cell);
+
+  std::vector<PlacedBody> likely_others(std::size_t k) const;
+
+  /// Unknown scores are those of people whom the others hide wholly: nothing speaks for them.
+  double presence_at(double score) const;
+
+  /// The score of a placed body over the presence of those uncertain others who touch it, each
+  /// present by their own probability; NaN where it is unknown whoever is present.
+  double expected_score(std::size_t k);
+
+  /// Judges one by what all others leave; false when the best place doesn't score enough.
+  bool place(std::size_t k, bool may_move);
+
+  /// The summit next to a body, uphill, at most options.reach_m away.
+  CellIndex climb(const PlacedBody& start, std::size_t k);
+
+  const JointSearch& s_;
+  const GroundGrid& grid_;
+  std::span<const double> baselines_;
+  const Remainder whole_;
+  Remainder rest_;               ///< what nobody accounts for
+  LevelLikelihood now_;          ///< by the rest
+  std::vector<double> surface_;  ///< now_, smoothed
+  OwnLikelihood own_;            ///< of who is being placed, by what the others leave
+  std::vector<Entry> people_;
+  std::optional<CellIndex> left_out_;     ///< nobody is accepted near this place
+  std::vector<char> watched_;             ///< [cell]: whether it is judged again
+  std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether a move has touched it
+};
+
+}  // namespace plaza
