@@ -32,8 +32,8 @@ if(PLAZA_SANITIZE)
 endif()
 
 # With it a target's sources are compiled eight at a time, as one unit: what they share, mostly templates of the standard
-# library, json and Eigen, is instantiated once, in half of the time or less. An edit compiles its whole unit, and tools
-# that want each source's own command (clang-tidy, clangd) find none: who edits a lot switches it off in a build of their own.
+# library, json and Eigen, is instantiated once, in half of the time or less. An edit compiles its whole unit, and clangd, which
+# wants each source's own command, finds none: who edits a lot switches it off in a build of their own.
 option(PLAZA_UNITY "Compile several sources of a target as one unit" ON)
 set(CMAKE_UNITY_BUILD ${PLAZA_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
