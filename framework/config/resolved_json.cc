@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <utility>
 
 #include "framework/config/json_document.h"
 #include "framework/config/pipeline.h"
 #include "framework/config/resolved_values.h"
+#include "framework/config/text.h"
+#include "plaza/core/error.h"
 
 namespace plaza {
 
@@ -85,10 +88,12 @@ class Writer {
           producer < 0 ? json() : json(pipeline_.nodes[static_cast<std::size_t>(producer)].name);
     }
     for (const auto& [parameter, records] : node.input_lists) {
-      const ParameterSpec* spec = nullptr;
-      for (const ParameterSpec& candidate : node.entry->declaration.parameters) {
-        if (candidate.name == parameter) spec = &candidate;
-      }
+      const std::vector<ParameterSpec>& specs = node.entry->declaration.parameters;
+      const auto spec =
+          std::find_if(specs.begin(), specs.end(),
+                       [&name = parameter](const ParameterSpec& s) { return s.name == name; });
+      if (spec == specs.end())
+        throw InternalError("input list " + quote(parameter) + " is not declared");
       json list = json::array();
       for (const ResolvedInputRecord& record : records) {
         json item = {{"from", record.from}};

@@ -101,13 +101,13 @@ Observation GroundFusion::fused(const MeasurementGroup& group,
 
   double log_odds = group.log_evidence;
   std::vector<bool> saw(scene_->cameras.size(), false);
-  const Observation* best = nullptr;
+  const Observation* best = &items.at(group.members.at(0));
   for (const std::size_t i : group.members) {
     const Observation& o = items[i];
     log_odds += logit(o.probability);
     saw[o.boxes[0].camera] = true;
     person.boxes.push_back(o.boxes[0]);
-    if (!best || o.probability > best->probability) best = &o;
+    if (o.probability > best->probability) best = &o;
   }
   person.heading_rad = best->heading_rad;
   person.features = best->features;

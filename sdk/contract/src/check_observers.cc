@@ -122,7 +122,8 @@ void check_detector(const Stage& stage, Findings& findings) {
                      "a frame's result depends on the frames seen before it");
   }
   const auto second = stage.make_as<Detector>();
-  findings.require(detect(*second, 5 % count) == forward[5 % count],
+  const std::int64_t any = std::min<std::int64_t>(5, count - 1);
+  findings.require(detect(*second, any) == forward[any],
                    "a second detector with the same parameters gives another result");
   findings.step("a frame in which no view has an image", [&] {
     const auto call = stage.call(1, blind_provider(stage));
