@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "modalities/color/cast_shadow.h"
 #include "modalities/color/opencl_segmenter.h"
 #include "modalities/common/opencl.h"
 #include "plaza/core/parallel.h"
@@ -79,6 +80,11 @@ Modality::Prepared ColorModality::do_prepare(const cv::Mat& full, std::size_t ca
       color::segment_living(image, past, view.ground, 1 / scene().frame_rate_hz, living(),
                             [this](color::Background b) { return make_ground(std::move(b)); });
   color::Segmentation& segmentation = seen.segmentation;
+  if (view.scale && options_.most_shadow_m > 0) {
+    segmentation.mask =
+        color::without_shadows(segmentation.mask, image, seen.ground->background->image,
+                               *view.scale, options_.most_shadow_m);
+  }
   if (view.scale) segmentation.mask = color::analysed(segmentation.mask, *view.scale, shapes());
   const double share =
       cv::countNonZero(segmentation.mask) / static_cast<double>(segmentation.mask.total());
@@ -276,7 +282,7 @@ void ColorModality::use(std::vector<color::Background> backgrounds) {
   parallel_for(views.size(), [&](std::size_t c) {
     View& view = views[c];
     view.blind = occluded(*small_, small_->cameras[c]);
-    if (shapes().any()) {
+    if (shapes().any() || options_.most_shadow_m > 0) {
       view.scale =
           std::make_shared<const BodyScale>(small_->cameras[c], scene().area, scene().body);
     }

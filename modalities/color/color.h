@@ -62,6 +62,7 @@ class ColorModality final : public Modality, private Learner {
     double least_height_m = 0;
     double least_column_m = 0;
     double most_hole = 0;
+    double most_shadow_m = 0;
     Learning background = Learning::kPeopleFree;
     std::int64_t background_every = 5;
     std::optional<std::int64_t> background_first;

@@ -98,6 +98,14 @@ Declaration<ColorModality::Options> ColorModality::declare() {
           "holes in pieces at least half as high as a body are filled when they are at most this "
           "share of a body's box; 0: none")
       .source("thesis 7.2, shape analysis");
+  p.value("most_shadow_m", &Options::most_shadow_m)
+      .unit("m")
+      .at_least(0)
+      .at_most(5)
+      .meaning(
+          "how far up from its lower end an upright run of foreground is dropped while it may be "
+          "the ground in shadow, as high as that if it stood there; 0: nothing")
+      .source("thesis 7.2, shape analysis; Horprasert et al. 1999");
   p.choice("background", &Options::background, {"people-free", "median"})
       .meaning(
           "frames that the background is learned from: all, as medians over time, or only "

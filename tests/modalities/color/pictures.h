@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <random>
 
 #include "modalities/color/background.h"
+#include "plaza/geometry/camera.h"
 
 namespace plaza::color::test {
 
@@ -57,6 +59,17 @@ inline bool equal(const cv::Mat& a, const cv::Mat& b) {
     }
   }
   return true;
+}
+
+/// 3 m above the ground, looking along +y and a little down.
+inline Camera camera_above() {
+  const double c = std::cos(0.25), s = std::sin(0.25);
+  CameraFromWorld pose;
+  pose.rotation << 1, 0, 0, 0, -s, -c, 0, c, -s;
+  pose.translation = -pose.rotation * Eigen::Vector3d(0, 0, 3);
+  return Camera::pinhole("one", {320, 240},
+                         {.fx_px = 300, .fy_px = 300, .cx_px = 160, .cy_px = 120, .distortion = {}},
+                         pose);
 }
 
 }  // namespace plaza::color::test

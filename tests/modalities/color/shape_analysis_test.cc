@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
@@ -11,18 +10,8 @@
 namespace plaza::color {
 namespace {
 
+using test::camera_above;
 using test::equal;
-
-/// 3 m above the ground, looking along +y and a little down.
-Camera camera_above() {
-  const double c = std::cos(0.25), s = std::sin(0.25);
-  CameraFromWorld pose;
-  pose.rotation << 1, 0, 0, 0, -s, -c, 0, c, -s;
-  pose.translation = -pose.rotation * Eigen::Vector3d(0, 0, 3);
-  return Camera::pinhole("one", {320, 240},
-                         {.fx_px = 300, .fy_px = 300, .cx_px = 160, .cy_px = 120, .distortion = {}},
-                         pose);
-}
 
 class ShapeAnalysisTest : public ::testing::Test {
  protected:
