@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/modalities/color/pictures.h"
 
 namespace plaza::color {
