@@ -125,6 +125,16 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
           "joint inference: when the weakest scores less in the end, all is tried without; if more "
           "people are found then, and all together score better, it is they who stay: two who hide "
           "each other are easily taken for one between them; unset: nobody is doubted");
+  p.value("doubt_people", &Options::doubt_people)
+      .at_least(1)
+      .at_most(100)
+      .meaning("with doubt_score: how many are tried without, one by one, the weakest first");
+  p.value("doubt_starts", &Options::doubt_starts)
+      .at_least(1)
+      .at_most(100)
+      .meaning(
+          "with doubt_score: from how many places all is tried, the best first: whoever is found "
+          "first decides who else is left any evidence");
   p.value("rounds", &Options::rounds)
       .at_least(0)
       .at_most(100)

@@ -93,6 +93,8 @@ void HierarchicalGrid::sample() {
                                        : options_.min_score,
             .watch_score = options_.watch_score,
             .doubt_score = options_.doubt_score,
+            .doubt_people = options_.doubt_people,
+            .doubt_starts = options_.doubt_starts,
             .mean_field = mean_field ? &curve_ : nullptr,
             .most = options_.most,
             .rounds = options_.rounds,

@@ -42,6 +42,8 @@ class HierarchicalGrid final : public Detector, private Learner {
     std::optional<double> accept_score;
     std::optional<double> watch_score;
     std::optional<double> doubt_score;
+    int doubt_people = 2;
+    int doubt_starts = 3;
     int rounds = 3;
     double reach_m = 0.5;
     bool occlusion_order = false;

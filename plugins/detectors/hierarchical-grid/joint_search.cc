@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "plugins/detectors/hierarchical-grid/scenario.h"
 
@@ -35,19 +34,33 @@ bool JointSearch::near(CellIndex a, CellIndex b) const {
                      [&](const Neighbour& n) { return n.columns == columns && n.rows == rows; });
 }
 
+std::unique_ptr<JointSearch::Scenario> JointSearch::without_somebody(const Scenario& before) const {
+  for (const CellIndex doubted : before.weakest()) {
+    Scenario rest(before);
+    rest.leave_out(doubted);
+    std::unique_ptr<Scenario> best;
+    for (const CellIndex start : rest.starts()) {
+      auto without = std::make_unique<Scenario>(rest);
+      without->accept_at(start);
+      without->accept();
+      // otherwise at most one came for one, and places near by were climbed already
+      if (without->size() <= before.size()) continue;
+      without->settle();
+      if (without->worth() > (best ? *best : before).worth()) best = std::move(without);
+    }
+    if (best) return best;
+  }
+  return nullptr;
+}
+
 std::vector<FoundPerson> JointSearch::infer(const AllEvidence& evidence,
                                             const SearchResult& first) const {
   auto scenario = std::make_unique<Scenario>(*this, evidence, first);
   scenario->settle();
-  if (const std::optional<CellIndex> weakest = scenario->weakest()) {
-    auto without = std::make_unique<Scenario>(*scenario);
-    without->leave_out(*weakest);
-    without->accept();
-    // otherwise at most one came for one, and places near by were climbed already
-    if (without->size() > scenario->size()) {
-      without->settle();
-      if (without->worth() > scenario->worth()) scenario = std::move(without);
-    }
+  for (int round = 0; round < std::max(options_.rounds, 1); ++round) {
+    std::unique_ptr<Scenario> better = without_somebody(*scenario);
+    if (!better) break;
+    scenario = std::move(better);
   }
   return std::move(*scenario).people();
 }

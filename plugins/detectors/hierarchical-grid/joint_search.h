@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,8 +29,9 @@ struct FoundPerson {
 /// changes.
 ///
 /// Two who hide each other may have been taken for one between them, from where no step leads to
-/// both. So whoever scores least in the end may be doubted: when more people than before are
-/// accepted without, and all together are worth more, it is those who stay.
+/// both. So those who score least in the end may be doubted: when more people than before are
+/// accepted without one of them, and all together are worth more, it is those who stay. Whoever is
+/// accepted first decides who else is left anything, so that is tried from several places.
 ///
 /// In a mean field (as Fleuret et al., "Multicamera people tracking with a probabilistic occupancy
 /// map", 2008), whoever is accepted is present with a probability only, which is that of the score
@@ -42,8 +44,10 @@ class JointSearch {
     double accept_score = 0;  ///< of whom is considered at all; at most min_score
     /// Places with less, by all the evidence, are nobody's, whoever is accounted for later.
     std::optional<double> watch_score;
-    /// Below it the weakest is tried without; null: nobody is.
+    /// Who scores less may be tried without; null: nobody is.
     std::optional<double> doubt_score;
+    int doubt_people = 1;                          ///< how many, the weakest first
+    int doubt_starts = 1;                          ///< from how many places, the best first
     const ProbabilityCurve* mean_field = nullptr;  ///< of presence, by score; null: greedily
     int most = 1;                                  ///< people
     int rounds = 0;                                ///< of judging again; 0: what is accepted stays
@@ -63,6 +67,9 @@ class JointSearch {
 
  private:
   class Scenario;
+
+  /// More people, who are worth more together, instead of one of the weakest; null: there are none.
+  std::unique_ptr<Scenario> without_somebody(const Scenario& before) const;
 
   Eigen::Vector2d position(CellIndex cell) const;
   bool near(CellIndex a, CellIndex b) const;  ///< within the rivals' reach

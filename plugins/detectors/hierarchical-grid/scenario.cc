@@ -11,6 +11,10 @@ constexpr double kCertain = 0.02;
 constexpr std::size_t kMostUncertain = 3;
 constexpr double kSettled = 0.01;  ///< a smaller change of presence changes nobody else
 
+/// Who was taken for one are near the place between them: looking farther away than this finds
+/// nobody else and takes the longer.
+constexpr double kDoubtReachM = 1.5;
+
 }  // namespace
 
 JointSearch::Scenario::Scenario(const JointSearch& search, const AllEvidence& evidence,
@@ -36,13 +40,17 @@ void JointSearch::Scenario::accept() {
   while (people_.size() < static_cast<std::size_t>(s_.options_.most)) {
     const std::optional<CellIndex> best = best_cell();
     if (!best) break;
-    disturb(*best);
-    people_.emplace_back().person.body.cell = *best;
-    people_.back().presence = presence_at(s_.search_->score_of(*best, surface_[*best], now_));
-    const PlacedBody body[] = {people_.back().person.body};
-    rest_ = s_.search_->explain(rest_, body);
-    refresh(s_.search_->touching(*best));
+    accept_at(*best);
   }
+}
+
+void JointSearch::Scenario::accept_at(CellIndex cell) {
+  disturb(cell);
+  people_.emplace_back().person.body.cell = cell;
+  people_.back().presence = presence_at(s_.search_->score_of(cell, surface_[cell], now_));
+  const PlacedBody body[] = {people_.back().person.body};
+  rest_ = s_.search_->explain(rest_, body);
+  refresh(s_.search_->touching(cell));
 }
 
 bool JointSearch::Scenario::judge_again(bool may_change) {
@@ -97,13 +105,37 @@ void JointSearch::Scenario::settle() {
   judge_again(false);
 }
 
-std::optional<CellIndex> JointSearch::Scenario::weakest() const {
-  const auto weakest = std::min_element(
-      people_.begin(), people_.end(),
-      [](const Entry& a, const Entry& b) { return a.person.score < b.person.score; });
-  const bool doubted = weakest != people_.end() && s_.options_.doubt_score &&
-                       weakest->person.score < *s_.options_.doubt_score;
-  return doubted ? std::optional(weakest->person.body.cell) : std::nullopt;
+std::vector<CellIndex> JointSearch::Scenario::weakest() const {
+  std::vector<FoundPerson> doubted;
+  if (!s_.options_.doubt_score) return {};
+  for (const Entry& entry : people_) {
+    if (entry.person.score < *s_.options_.doubt_score) doubted.push_back(entry.person);
+  }
+  std::stable_sort(doubted.begin(), doubted.end(),
+                   [](const FoundPerson& a, const FoundPerson& b) { return a.score < b.score; });
+  std::vector<CellIndex> places;
+  for (const FoundPerson& person : doubted) {
+    if (places.size() == static_cast<std::size_t>(s_.options_.doubt_people)) break;
+    places.push_back(person.body.cell);
+  }
+  return places;
+}
+
+std::vector<CellIndex> JointSearch::Scenario::starts() const {
+  std::vector<CellIndex> able;
+  for (std::size_t i = 0; i < surface_.size(); ++i) {
+    if (acceptable(static_cast<CellIndex>(i))) able.push_back(static_cast<CellIndex>(i));
+  }
+  std::stable_sort(able.begin(), able.end(),
+                   [&](CellIndex a, CellIndex b) { return surface_[a] > surface_[b]; });
+  std::vector<CellIndex> best;
+  for (const CellIndex cell : able) {
+    if (best.size() == static_cast<std::size_t>(s_.options_.doubt_starts)) break;
+    if (std::none_of(best.begin(), best.end(), [&](CellIndex b) { return s_.near(b, cell); })) {
+      best.push_back(cell);
+    }
+  }
+  return best;
 }
 
 void JointSearch::Scenario::leave_out(CellIndex cell) {
@@ -116,7 +148,7 @@ void JointSearch::Scenario::leave_out(CellIndex cell) {
 double JointSearch::Scenario::worth() const {
   double sum = 0;
   for (const Entry& entry : people_) {
-    const double more = entry.person.score - s_.options_.min_score / 2;
+    const double more = entry.person.score - s_.options_.min_score;
     if (more > 0) sum += more;  // unknown scores are worth nothing
   }
   return sum;
@@ -139,16 +171,22 @@ bool JointSearch::Scenario::blocked(CellIndex cell, std::size_t by_others_than) 
   return false;
 }
 
+bool JointSearch::Scenario::considered(CellIndex cell) const {
+  return !left_out_ || (s_.position(cell) - s_.position(*left_out_)).norm() < kDoubtReachM;
+}
+
+bool JointSearch::Scenario::acceptable(CellIndex cell) const {
+  return considered(cell) && now_.evaluated[cell] != 0 && std::isfinite(surface_[cell]) &&
+         s_.search_->score_of(cell, surface_[cell], now_) >= s_.options_.accept_score &&
+         !blocked(cell, people_.size()) && !(left_out_ && s_.near(*left_out_, cell));
+}
+
 std::optional<CellIndex> JointSearch::Scenario::best_cell() const {
   std::optional<CellIndex> best;
   for (std::size_t i = 0; i < surface_.size(); ++i) {
     const auto cell = static_cast<CellIndex>(i);
-    if (now_.evaluated[i] == 0 || !std::isfinite(surface_[i])) continue;
     if (best && !(surface_[i] > surface_[*best])) continue;
-    if (!(s_.search_->score_of(cell, surface_[i], now_) >= s_.options_.accept_score)) continue;
-    if (blocked(cell, people_.size())) continue;
-    if (left_out_ && s_.near(*left_out_, cell)) continue;
-    best = cell;
+    if (acceptable(cell)) best = cell;
   }
   return best;
 }
@@ -156,8 +194,13 @@ std::optional<CellIndex> JointSearch::Scenario::best_cell() const {
 void JointSearch::Scenario::refresh(ViewCells cells) {
   std::vector<char> looked(surface_.size(), 0), todo = looked;
   std::vector<CellIndex> never;
-  for (std::vector<CellIndex>& view : cells) {
-    std::erase_if(view, [&](CellIndex cell) { return watched_[cell] == 0; });
+  for (std::size_t camera = 0; camera < cells.size(); ++camera) {
+    std::vector<CellIndex>& view = cells[camera];
+    std::erase_if(view, [&](CellIndex cell) {
+      const bool later = watched_[cell] != 0 && !considered(cell);
+      if (later) moved_[camera][cell] = 1;
+      return later || watched_[cell] == 0;
+    });
     for (const CellIndex cell : view) {
       if (looked[cell] != 0) continue;
       looked[cell] = 1;

@@ -16,6 +16,9 @@ class JointSearch::Scenario {
 
   void accept();
 
+  /// Whoever stands there, as the next one.
+  void accept_at(CellIndex cell);
+
   /// Whether anybody moved or went.
   bool judge_again(bool may_change);
 
@@ -27,14 +30,19 @@ class JointSearch::Scenario {
 
   std::size_t size() const { return people_.size(); }
 
-  /// Where whoever scores least stands, if that is less than `doubt_score`.
-  std::optional<CellIndex> weakest() const;
+  /// Where those stand who score less than `doubt_score`, the weakest first, `doubt_people` at
+  /// most.
+  std::vector<CellIndex> weakest() const;
 
-  /// Takes out who stands there; nobody is accepted near that place any more.
+  /// Where the next one could be accepted, best first, `doubt_starts` at most and none near
+  /// another.
+  std::vector<CellIndex> starts() const;
+
+  /// Takes out who stands there. Nobody is accepted at that place any more, nor far away from it.
   void leave_out(CellIndex cell);
 
-  /// Of all people together: what they score above half of what each of them has to, so that more
-  /// and weaker people aren't worth more just for being more.
+  /// Of all people together: what they score above what each of them has to, so that more and
+  /// weaker people aren't worth more just for being more.
   double worth() const;
 
   std::vector<FoundPerson> people() &&;
@@ -47,6 +55,12 @@ class JointSearch::Scenario {
   };
 
   bool blocked(CellIndex cell, std::size_t by_others_than) const;
+
+  /// Whether people are looked for there: anywhere, until somebody is left out.
+  bool considered(CellIndex cell) const;
+
+  /// Whether somebody else could be accepted there.
+  bool acceptable(CellIndex cell) const;
 
   std::optional<CellIndex> best_cell() const;
 
@@ -84,9 +98,9 @@ class JointSearch::Scenario {
   std::vector<double> surface_;  ///< now_, smoothed
   OwnLikelihood own_;            ///< of who is being placed, by what the others leave
   std::vector<Entry> people_;
-  std::optional<CellIndex> left_out_;     ///< nobody is accepted near this place
+  std::optional<CellIndex> left_out_;     ///< nobody is accepted at this place, nor far from it
   std::vector<char> watched_;             ///< [cell]: whether it is judged again
-  std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether a move has touched it
+  std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether it is to be judged again
 };
 
 }  // namespace plaza

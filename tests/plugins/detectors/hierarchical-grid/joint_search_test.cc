@@ -137,6 +137,19 @@ TEST(JointSearch, WhoeverIsDoubtedMayBeTwo) {
   EXPECT_EQ(never.distance_m, believed.distance_m);
 }
 
+TEST(JointSearch, MoreOfTheWeakAndMorePlacesMayBeTried) {
+  const auto errors = [](int people, int starts, int cameras) {
+    HierarchicalGrid::Options o = options_of(Inference::kGreedy);
+    o.doubt_score = 100;
+    o.doubt_people = people;
+    o.doubt_starts = starts;
+    return errors_in_crowds(o, cameras);
+  };
+  EXPECT_NE(errors(4, 1, 1).distance_m, errors(1, 1, 1).distance_m);
+  EXPECT_NE(errors(1, 4, 1).distance_m, errors(1, 1, 1).distance_m);
+  EXPECT_LT(errors(4, 4, 2).missed, errors(1, 1, 2).missed);
+}
+
 TEST(JointSearch, PlacesThatNothingSpeaksForNeedNotBeWatched) {
   const Errors all = errors_in_crowds(options_of(Inference::kGreedy), 3);
   HierarchicalGrid::Options o = options_of(Inference::kGreedy);
