@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plaza {
 namespace {
@@ -106,17 +107,17 @@ void JointSearch::Scenario::settle() {
 }
 
 std::vector<CellIndex> JointSearch::Scenario::weakest() const {
-  std::vector<FoundPerson> doubted;
   if (!s_.options_.doubt_score) return {};
+  std::vector<std::pair<double, CellIndex>> doubted;
   for (const Entry& entry : people_) {
-    if (entry.person.score < *s_.options_.doubt_score) doubted.push_back(entry.person);
+    const FoundPerson& person = entry.person;
+    if (person.score < *s_.options_.doubt_score)
+      doubted.emplace_back(person.score, person.body.cell);
   }
-  std::stable_sort(doubted.begin(), doubted.end(),
-                   [](const FoundPerson& a, const FoundPerson& b) { return a.score < b.score; });
+  std::sort(doubted.begin(), doubted.end());
   std::vector<CellIndex> places;
-  for (const FoundPerson& person : doubted) {
-    if (places.size() == static_cast<std::size_t>(s_.options_.doubt_people)) break;
-    places.push_back(person.body.cell);
+  for (const auto& [score, cell] : doubted) {
+    if (places.size() < static_cast<std::size_t>(s_.options_.doubt_people)) places.push_back(cell);
   }
   return places;
 }
@@ -197,9 +198,10 @@ void JointSearch::Scenario::refresh(ViewCells cells) {
   for (std::size_t camera = 0; camera < cells.size(); ++camera) {
     std::vector<CellIndex>& view = cells[camera];
     std::erase_if(view, [&](CellIndex cell) {
-      const bool later = watched_[cell] != 0 && !considered(cell);
-      if (later) moved_[camera][cell] = 1;
-      return later || watched_[cell] == 0;
+      if (watched_[cell] == 0) return true;
+      if (considered(cell)) return false;
+      moved_[camera][cell] = 1;  // stale until somebody near there is left out
+      return true;
     });
     for (const CellIndex cell : view) {
       if (looked[cell] != 0) continue;
