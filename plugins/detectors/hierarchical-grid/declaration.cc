@@ -119,7 +119,8 @@ Declaration<HierarchicalGrid::Options> HierarchicalGrid::declare() {
   p.value("watch_score", &Options::watch_score)
       .meaning(
           "joint inference: places with less score while nobody is accounted for are not judged "
-          "again as people are accepted, which saves most of the time; unset: all are");
+          "again as people are accepted, nor those that have less left until everybody has been "
+          "placed again, which saves most of the time; unset: all are");
   p.value("doubt_score", &Options::doubt_score)
       .meaning(
           "joint inference: when the weakest scores less in the end, all is tried without; if more "

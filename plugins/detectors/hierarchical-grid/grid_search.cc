@@ -266,18 +266,31 @@ void GridSearch::judge(const Remainder& rest, std::span<const double> baselines,
   combine(layer, cells, evaluate(layer, cells, rest.evidence), baselines, rest.hidden, finest);
 }
 
-Remainder GridSearch::explain(Remainder rest, std::span<const PlacedBody> people,
-                              std::optional<CellIndex> behind) const {
-  const auto distance = [&](std::size_t camera, CellIndex cell) {
-    return (grid_->position(grid_->levels() - 1, cell) - centres_m_[camera]).norm();
-  };
-  const auto hides = [&](std::size_t camera, const PlacedBody& body) {
-    return !behind || distance(camera, body.cell) < distance(camera, *behind);
-  };
+Remainder GridSearch::explain(Remainder rest, std::span<const PlacedBody> people) const {
+  const std::vector<PlacedBody> everybody(people.begin(), people.end());
+  return explain(std::move(rest), std::vector<std::vector<PlacedBody>>(cameras_, everybody));
+}
+
+Remainder GridSearch::explain_to(CellIndex cell, Remainder rest, std::span<const PlacedBody> people,
+                                 bool nearer_only) const {
+  std::vector<std::vector<PlacedBody>> of_camera(cameras_);
   for (std::size_t camera = 0; camera < cameras_; ++camera) {
-    for (const PlacedBody& body : people) {
+    std::copy_if(
+        people.begin(), people.end(), std::back_inserter(of_camera[camera]),
+        [&](const PlacedBody& body) {
+          return touch(camera, body.cell, cell) &&
+                 (!nearer_only || distance_m(camera, body.cell) < distance_m(camera, cell));
+        });
+  }
+  return explain(std::move(rest), of_camera);
+}
+
+Remainder GridSearch::explain(Remainder rest,
+                              std::span<const std::vector<PlacedBody>> of_camera) const {
+  for (std::size_t camera = 0; camera < cameras_; ++camera) {
+    for (const PlacedBody& body : of_camera[camera]) {
       const Box& box = boxes_[camera][body.cell];
-      if (box.width > 0 && hides(camera, body)) rest.hidden[camera].push_back(box);
+      if (box.width > 0) rest.hidden[camera].push_back(box);
     }
   }
   parallel_for(witnesses_.size() * cameras_, [&](std::size_t pair) {
@@ -287,8 +300,8 @@ Remainder GridSearch::explain(Remainder rest, std::span<const PlacedBody> people
     for (std::size_t size = 0; size < sizes().size(); ++size) {
       const std::size_t layer = grid_->levels() - 1 + size;
       std::vector<std::uint32_t> which;
-      for (const PlacedBody& body : people) {
-        if (body.size != size || !hides(camera, body)) continue;
+      for (const PlacedBody& body : of_camera[camera]) {
+        if (body.size != size) continue;
         const std::uint32_t index = template_of_cell_[layer][camera][body.cell];
         if (index != kUnseen) which.push_back(index);
       }
@@ -298,6 +311,10 @@ Remainder GridSearch::explain(Remainder rest, std::span<const PlacedBody> people
     }
   });
   return rest;
+}
+
+double GridSearch::distance_m(std::size_t camera, CellIndex cell) const {
+  return (grid_->position(grid_->levels() - 1, cell) - centres_m_[camera]).norm();
 }
 
 bool GridSearch::touch(std::size_t camera, CellIndex a, CellIndex b) const {

@@ -102,10 +102,13 @@ class GridSearch {
   Remainder nobody(const AllEvidence& evidence) const {
     return {evidence, std::vector<std::vector<Box>>(cameras_)};
   }
-  /// What these people leave of it. With `behind`, in each view only without those of them who
-  /// stand nearer to the camera than that cell, and could therefore hide who stands there.
-  Remainder explain(Remainder rest, std::span<const PlacedBody> people,
-                    std::optional<CellIndex> behind = {}) const;
+  /// What these people leave of it.
+  Remainder explain(Remainder rest, std::span<const PlacedBody> people) const;
+  /// What these people leave of it to somebody in `cell`: in each view without those of them alone
+  /// who could share evidence with that one there; with `nearer_only`, without those alone who also
+  /// stand nearer to the camera, and could therefore hide that one.
+  Remainder explain_to(CellIndex cell, Remainder rest, std::span<const PlacedBody> people,
+                       bool nearer_only) const;
   /// Cells of the finest level whose people could share evidence with somebody in `cell`: their
   /// silhouettes' boxes, grown by an eighth of their heights, meet in that view.
   ViewCells touching(CellIndex cell) const;
@@ -123,6 +126,9 @@ class GridSearch {
                std::span<const double> baselines, std::span<const std::vector<Box>> hidden,
                LevelLikelihood& level) const;
   bool touch(std::size_t camera, CellIndex a, CellIndex b) const;
+  double distance_m(std::size_t camera, CellIndex cell) const;  ///< on the ground
+  /// `of_camera`: [camera], who is accounted for in that view.
+  Remainder explain(Remainder rest, std::span<const std::vector<PlacedBody>> of_camera) const;
   std::vector<CellIndex> wanted_cells(std::size_t level, const LevelLikelihood* parents) const;
 
   const StateGrid* grid_;

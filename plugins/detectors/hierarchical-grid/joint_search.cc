@@ -44,8 +44,7 @@ std::unique_ptr<JointSearch::Scenario> JointSearch::without_somebody(const Scena
       without->accept_at(start);
       without->accept();
       // otherwise at most one came for one, and places near by were climbed already
-      if (without->size() <= before.size()) continue;
-      without->settle();
+      if (without->size() <= before.size() || !without->settle()) continue;
       if (without->worth() > (best ? *best : before).worth()) best = std::move(without);
     }
     if (best) return best;

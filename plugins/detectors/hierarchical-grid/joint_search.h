@@ -42,7 +42,8 @@ class JointSearch {
   struct Options {
     double min_score = 0;
     double accept_score = 0;  ///< of whom is considered at all; at most min_score
-    /// Places with less, by all the evidence, are nobody's, whoever is accounted for later.
+    /// Places with less, by all the evidence, are nobody's, whoever is accounted for later; those
+    /// with less by what is left aren't judged again before everybody has been placed again.
     std::optional<double> watch_score;
     /// Who scores less may be tried without; null: nobody is.
     std::optional<double> doubt_score;

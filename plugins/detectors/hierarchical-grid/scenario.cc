@@ -51,7 +51,8 @@ void JointSearch::Scenario::accept_at(CellIndex cell) {
   people_.back().presence = presence_at(s_.search_->score_of(cell, surface_[cell], now_));
   const PlacedBody body[] = {people_.back().person.body};
   rest_ = s_.search_->explain(rest_, body);
-  refresh(s_.search_->touching(cell));
+  // taking more away seldom makes a place likelier: what was nobody's before can wait
+  refresh(s_.search_->touching(cell), s_.options_.watch_score);
 }
 
 bool JointSearch::Scenario::judge_again(bool may_change) {
@@ -93,17 +94,26 @@ void JointSearch::Scenario::take_away_again() {
     }
     std::fill(moved_[camera].begin(), moved_[camera].end(), 0);
   }
-  refresh(std::move(cells));
+  refresh(std::move(cells), std::nullopt);
 }
 
-void JointSearch::Scenario::settle() {
+bool JointSearch::Scenario::settle() {
   accept();
   for (int round = 0; round < s_.options_.rounds; ++round) {
     if (!judge_again(true)) break;
+    if (back_again()) return false;
     take_away_again();
     accept();
   }
   judge_again(false);
+  return true;
+}
+
+bool JointSearch::Scenario::back_again() const {
+  if (!left_out_ || people_.size() > left_out_->people) return false;
+  return std::any_of(people_.begin(), people_.end(), [&](const Entry& entry) {
+    return s_.near(entry.person.body.cell, left_out_->cell);
+  });
 }
 
 std::vector<CellIndex> JointSearch::Scenario::weakest() const {
@@ -140,8 +150,8 @@ std::vector<CellIndex> JointSearch::Scenario::starts() const {
 }
 
 void JointSearch::Scenario::leave_out(CellIndex cell) {
+  left_out_ = LeftOut{cell, people_.size()};
   std::erase_if(people_, [&](const Entry& e) { return e.person.body.cell == cell; });
-  left_out_ = cell;
   changed(cell);
   take_away_again();
 }
@@ -173,13 +183,13 @@ bool JointSearch::Scenario::blocked(CellIndex cell, std::size_t by_others_than) 
 }
 
 bool JointSearch::Scenario::considered(CellIndex cell) const {
-  return !left_out_ || (s_.position(cell) - s_.position(*left_out_)).norm() < kDoubtReachM;
+  return !left_out_ || (s_.position(cell) - s_.position(left_out_->cell)).norm() < kDoubtReachM;
 }
 
 bool JointSearch::Scenario::acceptable(CellIndex cell) const {
   return considered(cell) && now_.evaluated[cell] != 0 && std::isfinite(surface_[cell]) &&
          s_.search_->score_of(cell, surface_[cell], now_) >= s_.options_.accept_score &&
-         !blocked(cell, people_.size()) && !(left_out_ && s_.near(*left_out_, cell));
+         !blocked(cell, people_.size()) && !(left_out_ && s_.near(left_out_->cell, cell));
 }
 
 std::optional<CellIndex> JointSearch::Scenario::best_cell() const {
@@ -192,15 +202,16 @@ std::optional<CellIndex> JointSearch::Scenario::best_cell() const {
   return best;
 }
 
-void JointSearch::Scenario::refresh(ViewCells cells) {
+void JointSearch::Scenario::refresh(ViewCells cells, std::optional<double> least_score) {
   std::vector<char> looked(surface_.size(), 0), todo = looked;
   std::vector<CellIndex> never;
   for (std::size_t camera = 0; camera < cells.size(); ++camera) {
     std::vector<CellIndex>& view = cells[camera];
     std::erase_if(view, [&](CellIndex cell) {
       if (watched_[cell] == 0) return true;
-      if (considered(cell)) return false;
-      moved_[camera][cell] = 1;  // stale until somebody near there is left out
+      const double score = s_.search_->score_of(cell, surface_[cell], now_);
+      if (considered(cell) && !(least_score && score < *least_score)) return false;
+      moved_[camera][cell] = 1;  // stale until everybody is taken away again
       return true;
     });
     for (const CellIndex cell : view) {
@@ -293,12 +304,8 @@ double JointSearch::Scenario::expected_score(std::size_t k) {
 
 bool JointSearch::Scenario::place(std::size_t k, bool may_move) {
   FoundPerson& person = people_[k].person;
-  std::vector<PlacedBody> others = likely_others(k);
-  std::erase_if(others, [&](const PlacedBody& other) {
-    return !s_.search_->touch(other.cell, person.body.cell);
-  });
-  own_.use(s_.search_->explain(
-      whole_, others, s_.options_.nearer_only ? std::optional(person.body.cell) : std::nullopt));
+  own_.use(
+      s_.search_->explain_to(person.body.cell, whole_, likely_others(k), s_.options_.nearer_only));
   if (may_move) {
     person.body.cell = climb(person.body, k);
     const PlacedBody before = person.body;

@@ -25,8 +25,9 @@ class JointSearch::Scenario {
   /// What is left when everybody has moved.
   void take_away_again();
 
-  /// Accepts, places and judges until nothing changes or all rounds are over.
-  void settle();
+  /// Accepts, places and judges until nothing changes or all rounds are over. False when it was
+  /// given up, as who was left out is back again with no more people than before.
+  bool settle();
 
   std::size_t size() const { return people_.size(); }
 
@@ -54,6 +55,15 @@ class JointSearch::Scenario {
     bool stale = true;    ///< somebody near has changed since this one was judged
   };
 
+  struct LeftOut {
+    CellIndex cell = 0;
+    std::size_t people = 0;  ///< how many there were before
+  };
+
+  /// Whether somebody has moved to where somebody was left out, and nobody else was found: what
+  /// follows is what was before.
+  bool back_again() const;
+
   bool blocked(CellIndex cell, std::size_t by_others_than) const;
 
   /// Whether people are looked for there: anywhere, until somebody is left out.
@@ -65,8 +75,8 @@ class JointSearch::Scenario {
   std::optional<CellIndex> best_cell() const;
 
   /// Judges cells again by what is left, in views where that has changed; in all views where they
-  /// were never judged.
-  void refresh(ViewCells cells);
+  /// were never judged. Those that score less already wait until everybody is taken away again.
+  void refresh(ViewCells cells, std::optional<double> least_score);
 
   /// Whoever could share evidence with somebody who came, moved or went there is to be judged
   /// again.
@@ -98,7 +108,7 @@ class JointSearch::Scenario {
   std::vector<double> surface_;  ///< now_, smoothed
   OwnLikelihood own_;            ///< of who is being placed, by what the others leave
   std::vector<Entry> people_;
-  std::optional<CellIndex> left_out_;     ///< nobody is accepted at this place, nor far from it
+  std::optional<LeftOut> left_out_;       ///< nobody is accepted at this place, nor far from it
   std::vector<char> watched_;             ///< [cell]: whether it is judged again
   std::vector<std::vector<char>> moved_;  ///< [camera][cell]: whether it is to be judged again
 };

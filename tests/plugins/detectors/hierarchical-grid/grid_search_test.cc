@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/plugins/detectors/hierarchical-grid/grid_rig.h"
 
 namespace plaza {
@@ -98,8 +100,10 @@ class Explained : public ::testing::Test {
     }
     const SearchResult result = search_.search(evidence);
     LevelLikelihood level = result.levels.back();
-    search_.judge(search_.explain(search_.nobody(evidence), people, behind), result.baselines, 0,
-                  ViewCells(views_.size(), both_), level);
+    const Remainder whole = search_.nobody(evidence);
+    const Remainder rest =
+        behind ? search_.explain_to(*behind, whole, people, true) : search_.explain(whole, people);
+    search_.judge(rest, result.baselines, 0, ViewCells(views_.size(), both_), level);
     return level;
   }
   CellIndex cell_at(const Eigen::Vector2d& position) const {
@@ -135,6 +139,30 @@ TEST_F(Explained, WhoStandsInFrontLosesNothingToWhoStandsBehind) {
   const LevelLikelihood all = without({}, {}), order = without(far, near_), any = without(far, {});
   EXPECT_EQ(order.views[0][near_], all.views[0][near_]);
   EXPECT_NE(any.views[0][near_], all.views[0][near_]);
+}
+
+TEST_F(Explained, WhoCannotShareEvidenceTakesNoneAway) {
+  AllEvidence evidence(1);
+  for (std::size_t c = 0; c < views_.size(); ++c) {
+    evidence[0].push_back(modality_->prepare(views_[c], c).evidence);
+  }
+  const Remainder whole = search_.nobody(evidence);
+  const ViewCells touching = search_.touching(near_);
+  int taken = 0, left = 0;
+  for (std::size_t other = 0; other < grid_.size(0); ++other) {
+    const PlacedBody people[] = {{static_cast<CellIndex>(other), 0}};
+    const Remainder all = search_.explain(whole, people);
+    const Remainder rest = search_.explain_to(near_, whole, people, false);
+    for (std::size_t c = 0; c < views_.size(); ++c) {
+      const bool touches = std::ranges::binary_search(touching[c], people[0].cell);
+      EXPECT_EQ(rest.hidden[c].size(), touches ? all.hidden[c].size() : 0);
+      EXPECT_EQ(rest.evidence[0][c] != evidence[0][c],
+                touches && all.evidence[0][c] != evidence[0][c]);
+      ++(rest.hidden[c].empty() ? left : taken);
+    }
+  }
+  EXPECT_GT(taken, 0);
+  EXPECT_GT(left, 0);
 }
 
 TEST_F(Explained, WhoStandsBehindLosesWhatIsHidden) {
