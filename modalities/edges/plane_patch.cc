@@ -62,49 +62,68 @@ bool PatchedSums::touches(const EdgeTemplates& templates, std::size_t index) {
   return !near_.empty();
 }
 
+void PatchedSums::look_along(std::size_t direction, bool steep) {
+  windows_.clear();
+  for (const PlanePatch* patch : near_) {
+    const cv::Rect &valid = patch->valid(), &window = patch->window();
+    const PlaneLayout& layout = patch->layout();
+    Window w;
+    w.bytes = patch->bytes();
+    w.stride = steep ? layout.wide_stride() : layout.tall_stride();
+    w.origin = layout.plane_begin(direction) - (steep ? window.y : window.x) * w.stride -
+               (steep ? window.x : window.y);
+    w.first_row = steep ? valid.y : valid.x;
+    w.end_row = steep ? valid.br().y : valid.br().x;
+    w.first_column = steep ? valid.x : valid.y;
+    w.end_column = steep ? valid.br().x : valid.br().y;
+    windows_.push_back(w);
+  }
+}
+
 void PatchedSums::sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums) {
   const PlaneLayout& layout = *templates.layout();
   const ContourRuns whole = templates.runs(index);
   const std::span<const std::uint16_t> rows = templates.rows(index);
-  bytes_.clear();
-  lengths_.clear();
+  // a patch cuts a run into two more at most
+  const std::size_t most = rows.size() * (2 * near_.size() + 1);
+  if (bytes_.size() < most) {
+    bytes_.resize(most);
+    lengths_.resize(most);
+  }
+  pieces_ = 0;
   counts_.resize(whole.directions);
   std::size_t run = 0;
   for (std::size_t d = 0; d < whole.directions; ++d) {
     const bool steep = layout.directions()[d].steep;
     const std::uint32_t stride = steep ? layout.wide_stride() : layout.tall_stride();
-    const std::size_t first = bytes_.size();
+    look_along(d, steep);
+    const std::size_t first = pieces_;
     for (const std::size_t last = run + whole.counts[d]; run < last; ++run) {
       const std::uint32_t row_begin = layout.plane_begin(d) + rows[run] * stride;
       const int column = static_cast<int>(whole.begins[run] - row_begin);
-      add_pieces(d, steep, rows[run], column, column + whole.lengths[run], planes_ + row_begin);
+      add_pieces(rows[run], column, column + whole.lengths[run], planes_ + row_begin);
     }
-    counts_[d] = static_cast<std::uint32_t>(bytes_.size() - first);
+    counts_[d] = static_cast<std::uint32_t>(pieces_ - first);
   }
   sum_(bytes_.data(), {nullptr, lengths_.data(), counts_.data(), whole.peaks, whole.directions},
        sums);
 }
 
-void PatchedSums::add_pieces(std::size_t direction, bool steep, int row, int column, int end,
-                             const std::uint8_t* row_begin) {
+void PatchedSums::add_pieces(int row, int column, int end, const std::uint8_t* row_begin) {
   while (column < end) {
     int piece_end = end;
-    const PlanePatch* inside = nullptr;
-    for (const PlanePatch* patch : near_) {
-      const cv::Rect& v = patch->valid();
-      const int first_row = steep ? v.y : v.x, end_row = steep ? v.br().y : v.br().x;
-      const int first = steep ? v.x : v.y, behind = steep ? v.br().x : v.br().y;
-      if (row < first_row || row >= end_row || behind <= column || first >= end) continue;
-      if (first <= column) {
-        inside = patch;
-        piece_end = std::min(end, behind);
+    const Window* inside = nullptr;
+    for (const Window& w : windows_) {
+      if (!w.meets(row, column, end)) continue;
+      if (w.first_column <= column) {
+        inside = &w;
+        piece_end = std::min(end, w.end_column);
         break;
       }
-      piece_end = std::min(piece_end, first);
+      piece_end = std::min(piece_end, w.first_column);
     }
     add(inside == nullptr ? row_begin + column
-                          : inside->bytes() + inside->offset(direction, steep ? column : row,
-                                                             steep ? row : column),
+                          : inside->bytes + (inside->origin + row * inside->stride + column),
         piece_end - column);
     column = piece_end;
   }

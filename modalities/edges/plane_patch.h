@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core/types.hpp>
@@ -27,6 +28,9 @@ class PlanePatch {
   std::uint32_t offset(std::size_t direction, int x, int y) const {
     return layout_.offset(direction, x - window_.x, y - window_.y);
   }
+  /// The planes hold this rectangle of the image.
+  const cv::Rect& window() const { return window_; }
+  const PlaneLayout& layout() const { return layout_; }  ///< of the window
 
  private:
   cv::Rect valid_, window_;  ///< what is right, and what was swept for it
@@ -56,22 +60,37 @@ class PatchedSums {
   void sum(const EdgeTemplates& templates, std::size_t index, ContourSum* sums);
 
  private:
+  /// Where a patch lies in the planes of one direction, by their rows and columns.
+  struct Window {
+    const std::uint8_t* bytes = nullptr;
+    std::ptrdiff_t origin = 0;  ///< of row 0, column 0 of the whole plane from `bytes`
+    std::ptrdiff_t stride = 0;
+    int first_row = 0, end_row = 0, first_column = 0, end_column = 0;
+
+    bool meets(int row, int column, int end) const {
+      return row >= first_row && row < end_row && column < end_column && end > first_column;
+    }
+  };
+
+  void look_along(std::size_t direction, bool steep);
   void add(const std::uint8_t* bytes, int length) {
     __builtin_prefetch(bytes);  // summed up when all are listed
-    bytes_.push_back(bytes);
-    lengths_.push_back(static_cast<std::uint8_t>(length));
+    bytes_[pieces_] = bytes;
+    lengths_[pieces_] = static_cast<std::uint8_t>(length);
+    ++pieces_;
   }
-  /// A run from column to end of a row of a direction's plane, in pieces that lie in one place.
-  void add_pieces(std::size_t direction, bool steep, int row, int column, int end,
-                  const std::uint8_t* row_begin);
+  /// A run from column to end of a row, in pieces that lie in one place.
+  void add_pieces(int row, int column, int end, const std::uint8_t* row_begin);
 
   const std::uint8_t* planes_;
   std::span<const std::shared_ptr<const PlanePatch>> patches_;
   SumPieces sum_;
   std::vector<const PlanePatch*> near_;  ///< that the template may reach
-  std::vector<const std::uint8_t*> bytes_;
-  std::vector<std::uint8_t> lengths_;
-  std::vector<std::uint32_t> counts_;
+  std::vector<Window> windows_;          ///< of near_, in the direction that is being listed
+  std::size_t pieces_ = 0;
+  std::vector<const std::uint8_t*> bytes_;  ///< of the pieces; longer than there are any
+  std::vector<std::uint8_t> lengths_;       ///< likewise
+  std::vector<std::uint32_t> counts_;       ///< of pieces, by direction
 };
 
 }  // namespace plaza::edges
