@@ -4,7 +4,8 @@
     docs/make_components.py PLAZA [FILE]          writes FILE (docs/components.md beside this script)
     docs/make_components.py PLAZA --check [FILE]  fails when FILE is not what would be written
 
-PLAZA is the command; only the plugins of its own tree are asked.
+PLAZA is the command; only the plugins of its own tree are asked. Exits with 77 where a plugin was left out of the build,
+since the reference would lack its components.
 """
 
 import difflib
@@ -46,6 +47,16 @@ def ask(plaza, *arguments):
     if answer.returncode != 0:
         raise SystemExit(f"{plaza} {' '.join(arguments)} failed:\n{answer.stderr}")
     return answer.stdout
+
+
+LEFT_OUT = 77
+
+
+def refuse_what_lacks_a_plugin(plaza):
+    missing = [line.strip() for line in ask(plaza, "plugins").splitlines() if "left out of this build" in line]
+    if missing:
+        print("\n".join(["not compared nor written:", *missing]), file=sys.stderr)
+        raise SystemExit(LEFT_OUT)
 
 
 def components_of(plaza):
@@ -195,6 +206,7 @@ def main(arguments):
     if len(arguments) not in (1, 2):
         raise SystemExit(__doc__)
     file = pathlib.Path(arguments[1]) if len(arguments) == 2 else pathlib.Path(__file__).parent / "components.md"
+    refuse_what_lacks_a_plugin(arguments[0])
     text = page(components_of(arguments[0]))
     if not check:
         file.write_text(text, encoding="utf-8")
